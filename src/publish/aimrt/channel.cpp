@@ -13,8 +13,10 @@ namespace {
 Result<JointCommandMessage, Reason> decoded(const Packet& packet, Names names, Content content) {
   if (content == Content::json) return decode_joint_command_json(packet.message);
   auto message = decode_joint_command(packet.message);
-  if (message) return std::move(*message);
-  return Reason("the message is no " + std::string(type_name(Role::joint_command, names)));
+  if (message) return message;
+  const auto why = message.error().view();
+  return Reason("the message is no " + std::string(type_name(Role::joint_command, names)) +
+                (why.empty() ? "" : ": " + std::string(why)));
 }
 
 std::optional<Content> content_of(std::string_view content_type) {

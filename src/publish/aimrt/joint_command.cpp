@@ -9,6 +9,7 @@
 
 #include "json/located_json.h"
 #include "publish/aimrt/sensor.pb.h"
+#include "publish/aimrt/wire_types.h"
 
 namespace drover::publish::aimrt {
 
@@ -122,13 +123,14 @@ Reason number_problem(const JointCommandEntry& joint, const JointRule& rule) {
 
 }  // namespace
 
-std::optional<JointCommandMessage> decode_joint_command(std::string_view bytes) {
-  if (bytes.size() > kMaxCommandBytes) return std::nullopt;
+Result<JointCommandMessage, Reason> decode_joint_command(std::string_view bytes) {
+  if (bytes.size() > kMaxCommandBytes) return Reason();
   // The library would write to stderr for each message with bad UTF-8.
   static const bool quiet = (google::protobuf::SetLogHandler(nullptr), true);
   (void)quiet;
   ::aimrt::protocols::sensor::JointCommand decoded;
-  if (!decoded.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return std::nullopt;
+  if (!decoded.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return Reason();
+  if (Reason why = wire_type_problem(bytes); !why.empty()) return why;
   JointCommandMessage message;
   message.stamp_ns = decoded.header().time_stamp();
   message.sequence = decoded.header().sequence_num();

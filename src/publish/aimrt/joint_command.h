@@ -56,8 +56,10 @@ struct JointCommandRules {
 std::vector<JointRule>::const_iterator find_joint(const JointCommandRules& rules,
                                                   std::string_view name);
 
-/// Protobuf bytes; unknown fields are skipped. Nothing when it is no JointCommand.
-std::optional<JointCommandMessage> decode_joint_command(std::string_view bytes);
+/// Protobuf bytes; fields of other numbers are passed over. Refuses, with the place, one of another
+/// wire type, which protobuf passes over too: its joint would be told 0. The reason is empty where
+/// nothing is known but that it is no JointCommand.
+Result<JointCommandMessage, Reason> decode_joint_command(std::string_view bytes);
 
 /// Protobuf's JSON: both spellings of a field, numbers as texts, null for absent. Refuses, with the
 /// place, unknown fields, keys that come twice and numbers that are none.

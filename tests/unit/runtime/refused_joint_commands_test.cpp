@@ -178,6 +178,8 @@ const std::vector<Malformed>& malformed() {
       {test::in_packet("\xff"), "the message is no JointCommand"},
       {test::in_packet(test::joint_entry("elbow", 0.5, 0, 0, 40, 1).substr(0, 30)),
        "the message is no JointCommand"},
+      {test::in_packet(test::hex("12 09 0a 05 65 6c 62 6f 77 10 01")),
+       "the message is no JointCommand: joints[0].position is no double"},
       {test::in_packet(test::hex("12 03 0a 01 ff")), "the message is no JointCommand"},
       {json_packet("[]"), "the JSON is no JointCommand: it is no object"},
       {json_packet(R"({"joint": []})"), "the JSON is no JointCommand: joint is no field of it"},

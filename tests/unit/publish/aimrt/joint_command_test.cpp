@@ -44,6 +44,46 @@ TEST(AimrtJointCommand, RefusesBytesThatAreNone) {
   }
 }
 
+// Protobuf would pass such a field over, and the joint would be told 0 in its place.
+TEST(AimrtJointCommand, RefusesAFieldOfAnotherWireTypeAndNamesIt) {
+  const auto entry = [](const std::string& fields) { return test::bytes_field(2, fields); };
+  const auto name = test::bytes_field(1, "left");
+  const auto said = [](const std::string& bytes) {
+    const auto message = decode_joint_command(bytes);
+    return message ? "taken" : std::string(message.error().view());
+  };
+  EXPECT_EQ(said(entry(name + test::varint_field(2, 5))), "joints[0].position is no double");
+  EXPECT_EQ(said(entry(name + test::varint_field(3, 5))), "joints[0].velocity is no double");
+  EXPECT_EQ(said(entry(name + hex("25 00 00 80 3f"))), "joints[0].effort is no double");  // a float
+  EXPECT_EQ(said(entry(name + test::bytes_field(5, test::little_endian(1)))),
+            "joints[0].stiffness is no double");
+  EXPECT_EQ(said(joint_entry("left", 0, 0) + entry(name + test::varint_field(6, 1))),
+            "joints[1].damping is no double");
+  EXPECT_EQ(said(entry(test::varint_field(1, 7))), "joints[0].name is no string");
+  EXPECT_EQ(said(test::bytes_field(1, test::double_field(1, 0.5))),
+            "header.time_stamp is no uint64");
+  EXPECT_EQ(said(test::bytes_field(1, test::varint_field(2, 7))), "header.frame_id is no string");
+  EXPECT_EQ(said(test::bytes_field(1, test::bytes_field(3, "12"))),
+            "header.sequence_num is no uint64");
+  EXPECT_EQ(said(test::varint_field(1, 7)), "header is no message");
+  EXPECT_EQ(said(test::varint_field(2, 7)), "joints is no message");
+  EXPECT_EQ(said(hex("13 14")), "joints is no message");  // a group
+  // It does not count where it stands, nor what stands beside it.
+  EXPECT_EQ(said(entry(test::double_field(2, 0.5) + name + test::bytes_field(9, "later edition") +
+                       test::varint_field(2, 5))),
+            "joints[0].position is no double");
+}
+
+TEST(AimrtJointCommand, PassesOverFieldsOfALaterEdition) {
+  const auto bytes = test::bytes_field(1, test::varint_field(4, 7)) + test::varint_field(3, 1) +
+                     hex("7b 08 01 7c") +  // a group of 15
+                     test::bytes_field(2, test::bytes_field(1, "left") + test::double_field(7, 1));
+  const auto message = decode_joint_command(bytes);
+  ASSERT_TRUE(message);
+  ASSERT_EQ(message->joints.size(), 1U);
+  EXPECT_EQ(message->joints[0].name, "left");
+}
+
 TEST(AimrtJointCommand, RefusesAMessageThatIsTooLongToLookAt) {
   const auto padding = [](std::size_t size) {
     return test::bytes_field(15, std::string(size, 'x'));  // an unknown field
