@@ -128,7 +128,7 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
   }
   told_.owner = owner(input.estop);
   told_.reason = why_not(input, hindrance);
-  count(limited);
+  count(limited, !hindrance.empty(), input.now);
   const bool off = told_.state == GroupState::idle || told_.state == GroupState::arming;
   if (told_.reason.empty() && off) told_.reason = not_running(joints_, input.axes, told_.state);
   tell(input, lost, limited, events);
@@ -142,10 +142,15 @@ Reason JointGroup::why_not(const Input& input, const Reason& hindrance) const {
   // A trouble of its own names a drive already, as it is now.
   if (input.hindrance.empty() && !hindrance.empty()) return hindrance;
   Reason why = hindrance.empty() ? pause_first(joints_, input.axes) : hindrance;
-  for (std::size_t i = 0; why.empty() && i < joints_.size(); ++i)
-    if (const Reason& said = joints_[i].reason(); !said.empty())
-      why =
-          joints_[i].by_itself() ? of_joint(input.axes[joints_[i].rules().axis].joint, said) : said;
+  // Whose commands are refused now goes before what others were left with.
+  for (const bool refused : {true, false}) {
+    for (std::size_t i = 0; why.empty() && i < joints_.size(); ++i) {
+      const Reason& said = joints_[i].reason();
+      if (said.empty() || (refused && !joints_[i].refuses(input.now))) continue;
+      const AxisSnapshot& axis = input.axes[joints_[i].rules().axis];
+      why = joints_[i].by_itself() ? of_joint(axis.joint, said) : said;
+    }
+  }
   return with_lost(joints_, input.axes, why);
 }
 
@@ -205,8 +210,12 @@ GroupOwner JointGroup::owner(bool estop) const {
   return owned ? sender_ : GroupOwner::nobody;
 }
 
-void JointGroup::count(bool limited) {
-  const bool refused = told_.state != GroupState::following && !told_.reason.empty();
+void JointGroup::count(bool limited, bool hindered, Time now) {
+  // That another joint's commands have ceased refuses nothing.
+  const bool unwanted =
+      hindered || std::any_of(joints_.begin(), joints_.end(),
+                              [now](const auto& joint) { return joint.refuses(now); });
+  const bool refused = told_.state != GroupState::following && unwanted;
   (refused ? told_.refused : told_.accepted) += waiting_;
   waiting_ = 0;
   told_.limited += limited ? 1 : 0;

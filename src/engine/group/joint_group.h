@@ -43,7 +43,7 @@ class JointGroup final {
   Reason trouble(const Input& input) const;
   void tell_lost(const AxisSnapshot& axis, const JointServo& joint, Time now,
                  EventQueue& events) const;
-  void count(bool limited);
+  void count(bool limited, bool hindered, Time now);
   GroupOwner owner(bool estop) const;
   Reason why_not(const Input& input, const Reason& hindrance) const;
   void tell_drives(const Input& input, EventQueue& events);

@@ -53,6 +53,8 @@ class JointServo final {
 
   /// A row of commands asks for it, whether it may be followed or not.
   bool asked(Time now) const { return steady(now); }
+  /// What is sent to it is not followed, for its reason.
+  bool refuses(Time now) const { return sent(now) && !follows_ && !reason().empty(); }
   /// Somebody's commands, or its drive is armed for them.
   bool follows() const { return follows_; }
   /// Nothing hinders what is sent any more, but it did not pause since it was stopped.

@@ -120,6 +120,42 @@ TEST_F(EngineGroupReason, WhileAStopHoldsTellsWhoIsNotHeldByAnybody) {
   EXPECT_EQ(reason(), "e-stop pressed");
 }
 
+// --- one joint commanded, the others left --------------------------------------------------------
+
+class EngineGroupOneOfTwo : public EngineGroupReason {
+ protected:
+  void send_one_s(double seconds, std::size_t i, int every = 2) {
+    for (int n = 0; n < static_cast<int>(seconds * 200 + 0.5); ++n) {
+      JointTargets targets;
+      (void)targets.joints.push_back({static_cast<AxisId>(first + i), 0, 0.4, 0, 60, 3});
+      if (n % every == 0) rig.command(targets, source);
+      tick();
+    }
+  }
+};
+
+/// That the other's have ceased refuses nothing of it.
+TEST_F(EngineGroupOneOfTwo, CountsNoRefusalWhileItsRowBegins) {
+  settle();
+  send_one_s(2, 0);
+  run_s(0.2);
+  ASSERT_EQ(reason(), "shoulder: its commands have ceased");
+  send_one_s(0.2, 1);
+  EXPECT_EQ(told().refused, 0U) << reason();
+  send_one_s(2, 1);
+  EXPECT_EQ(told().state, GroupState::following);
+  EXPECT_EQ(told().refused, 0U);
+}
+
+TEST_F(EngineGroupOneOfTwo, TellsWhyItIsRefusedBeforeWhatTheOtherLeft) {
+  settle();
+  send_s(4, 0.4);
+  run_s(0.2);
+  send_one_s(0.7, 1, 30);
+  EXPECT_EQ(reason(), "elbow: its commands come 150 ms apart, 100 ms are allowed");
+  EXPECT_GE(told().refused, 2U);
+}
+
 // --- drives that do not answer, or have a fault -----------------------------------------------
 
 TEST_F(EngineGroupReason, NamesADriveInFaultThoughNobodyCommandsIt) {
