@@ -112,9 +112,13 @@ void check_interface(const LinkConfig& link, Findings& found) {
   if (link.can.starts_with("unix:")) return;
   if (const auto slash = link.can.rfind('/'); slash != std::string::npos) {
     const auto name = link.can.substr(slash + 1);
+    std::string instead = "did you mean \"" + name + "\"?";
+    if (name.empty()) instead = "a name like \"can0\"";
+    if (name.starts_with("tty"))
+      instead = "slcand makes one of a serial adapter: its name, like \"slcan0\"";
     return found.add(link_path(link, "can"),
                      "\"" + link.can + "\" is no name of an interface: they have no slash",
-                     name.empty() ? "a name like \"can0\"" : "did you mean \"" + name + "\"?");
+                     instead);
   }
   if (link.can.find_first_of(" \t:") != std::string::npos)
     return found.add(

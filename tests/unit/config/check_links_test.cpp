@@ -65,6 +65,9 @@ TEST(ConfigurationChecks, RefuseAnInterfaceThatTheKernelCannotName) {
   EXPECT_THAT(problems(with("{\"can\": \"can0\"}", "{\"can\": \"/dev/can0\"}")),
               HasSubstr("links.can0.can: \"/dev/can0\" is no name of an interface: they have no "
                         "slash (did you mean \"can0\"?)"));
+  EXPECT_THAT(problems(with("{\"can\": \"can0\"}", "{\"can\": \"/dev/ttyUSB0\"}")),
+              HasSubstr("they have no slash (slcand makes one of a serial adapter: its name, like "
+                        "\"slcan0\")"));
   EXPECT_EQ(problems(with("{\"can\": \"can0\"}", "{\"can\": \"unix:/tmp/can0\"}")), "");
 }
 
