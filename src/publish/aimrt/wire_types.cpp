@@ -17,14 +17,14 @@ struct Field;
 
 /// A message's fields by their numbers, from 1 on.
 struct Fields {
-  const Field* first;
-  int count;
+  const Field* first = nullptr;
+  int count = 0;
 };
 
 struct Field {
-  const char* name;
-  const char* kind;
-  WireFormatLite::WireType wire_type;
+  const char* name = "";
+  const char* kind = "";
+  WireFormatLite::WireType wire_type = WireFormatLite::WIRETYPE_VARINT;
   bool repeated = false;
   Fields inner{};  ///< of a message
 };

@@ -1,5 +1,5 @@
-// What stands in the bytes of a JointCommand under a number that it has, and is of another type than
-// that field: written by another definition of the message.
+// What stands in the bytes of a JointCommand under a number that it has, and is of another type
+// than that field: written by another definition of the message.
 #pragma once
 
 #include <string_view>
