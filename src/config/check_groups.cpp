@@ -108,6 +108,8 @@ void joint(const std::string& path, const JointGroup& group, const GroupJoint& g
            engine::GroupConfig& into, Findings& found) {
   const Moved moved = find_joint(given.name, found.config());
   if (moved.device == nullptr) {
+    // One joint, with its device's name: what that is nobody knows without its driver.
+    if (found.is_wrong("devices." + given.name + ".driver")) return;
     std::vector<std::string> known;
     for (const auto& device : found.config().devices)
       for (const auto& each : device.joints) known.push_back(each.name);

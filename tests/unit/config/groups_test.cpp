@@ -102,6 +102,14 @@ TEST(Groups, RefuseAJointThatIsNone) {
               HasSubstr("\"elbow\" is of no group"));
 }
 
+/// Its device is there, under a driver that is not.
+TEST(Groups, SayNothingOfAJointWhoseDriverIsUnknown) {
+  const auto said =
+      arm_problems("\"elbow\": {\"driver\": \"damiao\"", "\"elbow\": {\"driver\": \"damio\"");
+  EXPECT_THAT(said, HasSubstr("devices.elbow.driver: \"damio\" is not one of"));
+  EXPECT_THAT(said, testing::Not(HasSubstr("no device has this joint")));
+}
+
 TEST(Groups, RefuseAWheelAndADriveThatOnlyTurns) {
   EXPECT_THAT(arm_problems("\"turret\": {\"follows\"", "\"left\": {\"follows\""),
               HasSubstr("\"left\" is used by groups.base.left already"));
