@@ -231,8 +231,9 @@ std::optional<int> parse(CLI::App& app, std::vector<char*>& words) {
       drover::cli::tell_failure(json, "drover", option);
       return kUsage;
     }
-    if (error.get_exit_code() == 0 || !json) return app.exit(error) == 0 ? kDone : kUsage;
-    drover::cli::tell_failure(json, "drover", error.what());
+    if (error.get_exit_code() == 0) return app.exit(error) == 0 ? kDone : kUsage;
+    drover::cli::tell_failure(json, "drover",
+                              drover::cli::incomplete(app, arguments, error.what()));
     return kUsage;
   } catch (const drover::cli::WrongUsage& wrong) {
     drover::cli::tell_failure(json, "drover", wrong.what());

@@ -256,4 +256,27 @@ std::string unknown_verb(const CLI::App& app, std::span<const char* const> argum
   return {};
 }
 
+std::string incomplete(const CLI::App& app, std::span<const char* const> arguments,
+                       const std::string& why) {
+  const CLI::App* level = &app;
+  std::string verb;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string word = arguments[i];
+    if (takes_next_word(option_of(*level, option_name(word)), word)) ++i;
+    const auto verbs = level->get_subcommands({});
+    const auto inner = std::find_if(verbs.begin(), verbs.end(), [&word](const CLI::App* one) {
+      return one->get_name() == word;
+    });
+    if (inner == verbs.end()) continue;
+    verb += (verb.empty() ? "" : " ") + word;
+    level = *inner;
+  }
+  if (verb.empty()) return why + "; see: drover --help";
+  std::string all;
+  for (const auto& name : names_of(level->get_subcommands({})))
+    all += (all.empty() ? "" : ", ") + name;
+  if (level->get_require_subcommand_min() > 0) return '"' + verb + "\" wants one of: " + all;
+  return '"' + verb + "\": " + why + "; see: drover " + verb + " --help";
+}
+
 }  // namespace drover::cli

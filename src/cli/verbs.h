@@ -22,4 +22,9 @@ std::string unknown_option(const CLI::App& app, std::span<const char* const> arg
 /// or none is given.
 std::string unknown_verb(const CLI::App& app, std::span<const char* const> arguments);
 
+/// Of a command line whose verbs and options are known: which verb `why` is about, and where help
+/// is; or the verbs that there are where one is missing.
+std::string incomplete(const CLI::App& app, std::span<const char* const> arguments,
+                       const std::string& why);
+
 }  // namespace drover::cli

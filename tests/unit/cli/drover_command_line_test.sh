@@ -62,6 +62,11 @@ expect "a slip is told from a word that means another thing" 2 err \
   'no verb "unhold"; there are ' unhold
 expect "what people call it elsewhere is told" 2 err 'did you mean "bms"?' battery
 expect "a verb of a verb is told with the first one" 2 err 'did you mean "task cancel"?' cancel
+expect "a verb that wants another one is answered with those that there are" 2 err \
+  'drover: "task" wants one of: start, cancel' task
+expect "what a verb lacks is told with the verb" 2 err \
+  'drover: "task start": --id is required; see: drover task start --help' task start 'row 7'
+expect "without any verb it says where they are" 2 err 'see: drover --help'
 expect "help is a verb, too" 0 out 'drover stop' help stop
 expect "also alone" 0 out 'Examples:' help
 expect "the value of --socket is no verb" 3 err 'other.sock' --socket "$work/other.sock" status
