@@ -110,6 +110,8 @@ void JointGroup::step(const Input& input, std::span<AxisCommand> commands, std::
                 start_timeout_, input.blocked, ready});
     const bool stopped = followed && !joint.following() && !hindrance.empty();
     if (lost.empty() && stopped) lost = hindrance;
+    if (joint.strained())
+      notice(input.now, Notice::Level::warning, "", of_joint(axis.joint, joint.reason()), events);
     if (lost.empty() && joint.failed()) lost = of_joint(axis.joint, joint.reason());
     // Of one that followed it is told as the end of its commands.
     const bool told = followed && input.hindrance.empty();

@@ -106,7 +106,7 @@ void JointServo::cease(Time now) {
 void JointServo::rest(const JointMeasured& measured, double dt_s) {
   switch (ceased_ ? rules_.on_silence : OnSilence::hold) {
     case OnSilence::hold:
-      shaper_.hold(measured, dt_s);
+      shaper_.hold(measured, dt_s, !pressed_);
       state_ = GroupState::holding;
       return;
     case OnSilence::damp:
@@ -146,6 +146,24 @@ void JointServo::ask_trust(const Input& input, const JointMeasured& measured, do
   told_trust_ = Trust::damps;
 }
 
+/// Of what was told last. Who presses for long, and comes no nearer, is ended; what is held, or too
+/// soft to press, is only told.
+void JointServo::ask_arrival(const JointMeasured& measured, double dt_s) {
+  const bool asked = following() || state_ == GroupState::holding;
+  if (!asked || told_trust_ != Trust::whole) return arrival_.begin();
+  const bool knew = !arrival_.why().empty();
+  const bool followed = follows_ && following();
+  arrival_.look(measured, shaper_.impedance(), shaper_.position_rad(), shaper_.velocity_radps(),
+                followed, dt_s);
+  strained_ = !knew && !arrival_.why().empty();
+  if (followed && arrival_.presses()) {
+    end(arrival_.why());
+    failed_ = by_itself_ = pressed_ = true;
+    strained_ = false;
+    arrival_.begin();
+  }
+}
+
 /// Damped, which is no torque where its encoder stands; what damping drives on is let go. At once:
 /// what it was told was made of what is not so, and would drive it on while it goes down.
 void JointServo::do_without(const JointMeasured& measured) {
@@ -162,12 +180,17 @@ void JointServo::run(const Input& input) {
   const double dt_s = std::max(to_s(input.dt), 0.0);
   arming_since_ = kNever;
   // What is held elsewhere goes on from where it is given back.
-  if (!engaged_ || input.blocked) shaper_.take_over(measured);
+  if (!engaged_ || input.blocked) {
+    shaper_.take_over(measured);
+    arrival_.begin();
+  }
   if (!engaged_) trust_.begin();
   found_ = !engaged_ && !follows_;
   engaged_ = true;
   watch_joint(measured, dt_s);
   ask_trust(input, measured, dt_s);
+  if (follows_) pressed_ = false;
+  ask_arrival(measured, dt_s);
   command_.request = AxisRequest::run;
   if (told_trust_ != Trust::whole) {
     do_without(measured);
@@ -190,6 +213,7 @@ void JointServo::arm(const Input& input) {
   const bool taken_over = engaged_ && input.axis.state == AxisState::arming;
   if (engaged_ && follows_ && !taken_over) fail(input, kNoLoop);
   engaged_ = taken_over;
+  arrival_.begin();
   if (follows_ && arming_since_ != kNever && input.now - arming_since_ > input.start_timeout)
     fail(input, "its drive does not come into closed loop");
   if (!follows_ && !taken_over) {
@@ -217,12 +241,13 @@ void JointServo::watch_drive(const Input& input) {
 
 void JointServo::step(const Input& input) {
   command_ = {};
-  failed_ = found_ = false;
+  failed_ = found_ = strained_ = false;
   judge_stream(input);
   watch_drive(input);
   if (!input.heard) {
     // Blind, it is told to damp, should it still hear: its last word would stand otherwise.
     engaged_ = false;
+    arrival_.begin();
     state_ = GroupState::idle;
   } else if (input.axis.state == AxisState::running) {
     run(input);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "drover/snapshot.h"
+#include "engine/group/joint_arrival.h"
 #include "engine/group/joint_shaper.h"
 #include "engine/group/joint_trust.h"
 #include "engine/group/joint_watch.h"
@@ -31,7 +32,7 @@ class JointServo final {
   };
 
   explicit JointServo(const JointRules& rules)
-      : rules_(rules), shaper_(rules), watch_(rules), trust_(rules) {}
+      : rules_(rules), shaper_(rules), watch_(rules), trust_(rules), arrival_(rules) {}
 
   /// A command that is sound; whether it is followed is decided by step().
   void take(const JointTarget& target, Time now);
@@ -67,15 +68,19 @@ class JointServo final {
   JointValues limited() const { return following() ? shaper_.limited() : JointValues{}; }
   /// Why it does not follow what is sent, or why it ended, or why nobody holds what was held;
   /// empty: it does, or nothing is.
-  const Reason& reason() const { return tells_lost() ? lost_ : reason_; }
+  const Reason& reason() const {
+    return tells_lost() ? lost_ : reason_.empty() ? arrival_.why() : reason_;
+  }
   /// That reason lies in this joint, whose name is not in it.
-  bool by_itself() const { return by_itself_ || tells_lost(); }
+  bool by_itself() const { return by_itself_ || reason_.empty(); }
   /// What stopped it; empty: it is long ago, or nothing did.
   const Reason& stopped_by() const { return reason_; }
   bool stopped_by_itself() const { return by_itself_; }
   /// Why its drive does not hold it any more, though nobody let it go; empty: it does, or never
   /// did.
   const Reason& lost() const { return lost_; }
+  /// Since this cycle it does not come to its set point, and nothing was ended by that.
+  bool strained() const { return strained_; }
   /// Its drive ended it, or did not come into closed loop, or drove it beyond its limits, in this
   /// cycle.
   bool failed() const { return failed_; }
@@ -88,7 +93,7 @@ class JointServo final {
   bool steady(Time now) const;
   void judge_stream(const Input& input);
   void cease(Time now);
-  bool tells_lost() const { return reason_.empty() && !follows_; }
+  bool tells_lost() const { return !lost_.empty() && reason_.empty() && !follows_; }
   void watch_drive(const Input& input);
   bool lets_go() const { return ceased_ && rules_.on_silence == OnSilence::release; }
   void run(const Input& input);
@@ -97,12 +102,16 @@ class JointServo final {
   void fail(const Input& input, const char* otherwise);
   void watch_joint(const JointMeasured& measured, double dt_s);
   void ask_trust(const Input& input, const JointMeasured& measured, double dt_s);
+  void ask_arrival(const JointMeasured& measured, double dt_s);
   void do_without(const JointMeasured& measured);
 
   JointRules rules_;
   JointShaper shaper_;
   JointWatch watch_;
   JointTrust trust_;
+  JointArrival arrival_;
+  bool pressed_ = false;    ///< it was ended by that: its effort was no weight's
+  bool strained_ = false;   ///< this cycle
   Time measured_ = kNever;  ///< what it was asked for last
   enum class Trust : std::uint8_t { whole, damps, let_go } told_trust_ = Trust::whole;
   JointTarget target_;

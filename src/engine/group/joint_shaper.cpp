@@ -205,7 +205,7 @@ double JointShaper::kept(double effort_Nm, const JointMeasured& measured) const 
   return effort_Nm;
 }
 
-void JointShaper::hold(const JointMeasured& measured, double dt_s) {
+void JointShaper::hold(const JointMeasured& measured, double dt_s, bool keeps_weight) {
   limited_ = 0;
   if (!holds_) {
     holds_ = true;
@@ -221,7 +221,7 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s) {
     const double carries =
         std::clamp(std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives,
                    -rules_.max_effort_Nm, rules_.max_effort_Nm);
-    carried_Nm_ = kept(carries, measured);
+    carried_Nm_ = keeps_weight ? kept(carries, measured) : 0;
     // What the damping goes on giving is not given twice.
     const double still_damps = damping_ * (velocity_radps_ - measured.velocity_radps);
     effort_Nm_ = std::clamp(carries - still_damps, std::min(carries, 0.0), std::max(carries, 0.0));

@@ -44,10 +44,15 @@ class JointShaper final {
   void follow(const JointTarget& target, const JointMeasured& measured, double dt_s);
   /// One cycle of keeping the place where it was when this began; what carried a weight then
   /// carries it on.
-  void hold(const JointMeasured& measured, double dt_s);
+  void hold(const JointMeasured& measured, double dt_s) { hold(measured, dt_s, true); }
+  /// `keeps_weight`: false where nobody knows what of its effort was a weight's.
+  void hold(const JointMeasured& measured, double dt_s, bool keeps_weight);
   /// One cycle of damping alone.
   void damp(const JointMeasured& measured, double dt_s);
 
+  /// Where the set point is; nearer is what is told, where its distance is beyond the limit of
+  /// effort.
+  double position_rad() const { return position_rad_; }
   double velocity_radps() const { return told_velocity_radps_; }
   const Impedance& impedance() const { return told_; }
   /// What was beyond the joint's limits in the last cycle of following, or its drive's.
