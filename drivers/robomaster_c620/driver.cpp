@@ -65,6 +65,7 @@ RobomasterDriver::RobomasterDriver(const Settings& settings,
 void RobomasterDriver::lock(const Reason& why) {
   phase_ = Phase::locked;
   lock_reason_ = why;
+  faulty_ = kMotors;
 }
 
 void RobomasterDriver::start_arming(Time now) {
@@ -110,7 +111,11 @@ void RobomasterDriver::look_at_motors(Time now) {
   if (!attempts_to_run()) return;
   if (!silent.empty()) return lock(silent);
   for (std::size_t i = 0; i < kMotors; ++i)
-    if (const Reason fault = fault_of(i); !fault.empty()) return lock(fault);
+    if (const Reason fault = fault_of(i); !fault.empty()) {
+      lock(fault);
+      faulty_ = i;
+      return;
+    }
   if (foreign_.is_shown(now)) return lock(foreign_.text());
   if (phase_ == Phase::arming && oldest() > phase_since_) {
     phase_ = Phase::running;

@@ -88,6 +88,7 @@ class RobomasterDriver final : public Device, public FrameFace, public Actuator 
   Time phase_since_ = kNever;
   Time last_control_ = kNever;
   Reason lock_reason_;
+  std::size_t faulty_ = kMotors;  ///< the motor that has it; kMotors: none, or it is not one's
 
   struct Told {
     ToldStatus status;

@@ -93,6 +93,7 @@ StatusInWords RobomasterDriver::status(std::size_t channel, Time now) const {
   if (!why.empty()) {
     status.state = AxisState::fault;
     status.reason = why;
+    status.error_code = phase_ == Phase::locked && channel == faulty_ ? 1 : 0;
   } else if (phase_ == Phase::arming) {
     status.state = AxisState::arming;
   } else {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <variant>
 
 #include "drover/fixed_text.h"
@@ -74,6 +75,10 @@ struct JointTargets {
 struct JointTargetsRefused {
   Reason reason;
 };
+/// Why it is refused where its sender may have been there before the gateway, or its way, was: he
+/// may not know that the robot was stopped.
+inline constexpr std::string_view kJustCameWords =
+    "droverd has only just come, and nobody's commands are followed yet";
 /// Lets the drives go, so that a person can push the robot. Until ArmHold, also over restarts.
 /// Refused while it moves, and on a slope, where it would roll, unless the person says so.
 struct ReleaseHold {

@@ -107,9 +107,10 @@ void describe(V& v, const GeodeticPoint& point) {
 
 template <class V>
 void describe(V& v, const AxisSnapshot& it) {
-  const auto& [motion, last_motion, joint, group, state, fault, lapsed, powered, stops_all,
-               commanded_velocity_radps, inverter_degC, motor_degC, bus_V, bus_A, health, source] =
-      it;
+  const auto& [motion, last_motion, joint, group, state, fault, error_code, lapsed, powered,
+               stops_all, commanded_velocity_radps, inverter_degC, motor_degC, bus_V, bus_A, health,
+               source] = it;
+  (void)error_code;  // its words are in the fault
   v.value("joint", joint, {});
   v.value("group", group);  // people are shown its name
   v.inside("motion", [&v, &part = motion] { describe(v, part); });

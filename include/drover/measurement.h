@@ -38,7 +38,9 @@ enum class AxisState : std::uint8_t {
 struct AxisStatus {
   AxisId axis = 0;
   AxisState state = AxisState::unknown;
-  std::uint64_t error_code = 0;  ///< as the drive sent it
+  /// As the drive sent it, or its driver found. Motors of one device that stop for one of them have
+  /// its fault, and none of this.
+  std::uint64_t error_code = 0;
   /// A fault that says only that nobody fed the drive, or that its supply dipped: it is sound.
   bool lapsed = false;
   /// Of a fault: the power stage is still on. The motor drives or brakes, and gives energy back.

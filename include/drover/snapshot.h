@@ -94,9 +94,10 @@ struct AxisSnapshot {
   std::uint8_t group = 0;  ///< 0: the base; else 1 + the number in Snapshot::groups
   AxisState state = AxisState::unknown;
   Reason fault;
-  bool lapsed = false;     ///< that fault is only a want of set points or of supply
-  bool powered = false;    ///< with that fault its power stage is still on
-  bool stops_all = false;  ///< that fault is a person's stop of all of the robot
+  std::uint64_t error_code = 0;  ///< with that fault; 0: it may lie in another axis of its device
+  bool lapsed = false;           ///< that fault is only a want of set points or of supply
+  bool powered = false;          ///< with that fault its power stage is still on
+  bool stops_all = false;        ///< that fault is a person's stop of all of the robot
   double commanded_velocity_radps = 0;
   double inverter_degC = kAbsent;
   double motor_degC = kAbsent;

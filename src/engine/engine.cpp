@@ -91,6 +91,7 @@ Engine::Impl::Impl(const EngineConfig& c)
     if (axis == nullptr) return;
     for (AxisSnapshot& one : axes_of(*status, *axis)) {
       one.state = status->state;
+      one.error_code = status->error_code;
       one.lapsed = status->lapsed;
       one.powered = status->powered;
       one.stops_all = status->stops_all;
@@ -276,7 +277,7 @@ void Engine::on_command(const Command& command, Time now) {
     e.take_joints(*targets, id.source, now);
   } else if (const auto* refused = std::get_if<JointTargetsRefused>(&command.body)) {
     e.owners.refuse(*refused);
-    for (JointGroup& group : e.groups) group.refuse(now);
+    for (JointGroup& group : e.groups) group.refuse(*refused, now);
   } else if (std::holds_alternative<FindHeading>(command.body)) {
     e.owners.find_heading(id, e.estimate, e.health.report(), now, e.events);
   } else if (const auto* hand = std::get_if<DriveByHand>(&command.body)) {

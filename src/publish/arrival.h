@@ -21,11 +21,10 @@ inline constexpr std::string_view kTooMuchUnread =
 inline constexpr std::size_t kMostUnread = 64;
 inline constexpr std::size_t kMostUnreadBytes = std::size_t{8} << 20;
 
-/// So long after a way to those who write was opened nobody's joint commands are followed. A stream
-/// that was there before shows by that: it is refused, and has to pause.
+/// So long after a way to those who write was opened nobody's joint commands are followed, or for
+/// as long as they may be apart. A stream that was there before shows by that: it is refused, and
+/// has to pause.
 inline constexpr Duration kJustCame = std::chrono::milliseconds(300);
-inline constexpr const char* kJustCameWords =
-    "droverd has only just come, and nobody's commands are followed yet";
 
 struct Arrival {
   Retain retain = Retain::no;

@@ -118,7 +118,7 @@ Result<aimrt::JointCommandHeard, Reason> Ros2Outlet::read_joint_command(const js
                                                                         Time now) const {
   if (const auto why = text_member(request, "refused"); !why.empty())
     return Reason(json::shown(why, kMostText));
-  if (now - since_ < kJustCame) return Reason(kJustCameWords);
+  if (now - since_ < inputs_.joint_commands->just_came()) return Reason(kJustCameWords);
   const auto writer = text_member(request, "writer");
   const Time came{Duration{count_of(request, "at_ns")}};
   if (writer.empty() || came <= Time{}) return Reason("its writer or at_ns is missing");

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "drover/time.h"
-#include "publish/arrival.h"
 
 namespace drover::runtime {
 
@@ -31,8 +30,8 @@ class BrokerDelay final {
     next_ = now;
   }
   /// Who writes now may have done so before, and not know that this program is another one.
-  bool just_connected(Time now) const {
-    return connected_ != kNever && now - connected_ < publish::kJustCame;
+  bool just_connected(Duration just, Time now) const {
+    return connected_ != kNever && now - connected_ < just;
   }
   /// Whether to send a message now that measures. More than ten that wait measure nothing more.
   bool due(Time now) const { return now >= next_ && waiting_.size() < 10; }

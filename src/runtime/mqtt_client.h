@@ -74,7 +74,7 @@ class MqttClient final {
   std::uint64_t dropped() const { return dropped_; }
   /// Why nothing that comes now may begin a motion; empty when the broker is prompt.
   std::string_view late(Time now) const { return delay_.late(now); }
-  bool just_connected(Time now) const { return delay_.just_connected(now); }
+  bool just_connected(Duration just, Time now) const { return delay_.just_connected(just, now); }
 
  private:
   void set_callbacks();

@@ -32,7 +32,7 @@ void PublishLoop::on_message(const MqttMessage& message) {
   const Time now = monotonic_now();
   publish::Arrival arrival{message.retain, broker_->late(now),
                            now.time_since_epoch() + wall_minus_monotonic(),
-                           broker_->just_connected(now)};
+                           broker_->just_connected(joint_commands_.just_came(), now)};
   if (message.topic == publish::kTopicControl) {
     on_control(message.payload, arrival, now);
     return;

@@ -131,7 +131,7 @@ TEST(MecanumSidewaysSilent, IsToldInWordsAndTheStreamMovesItNoMore) {
   ASSERT_NE(told, log.statuses.end());
   figure("told after", told->time - silenced);
   EXPECT_LT(told->time - silenced, 400ms);
-  EXPECT_THAT(told->why, testing::HasSubstr("motor 3 (203) is silent"));
+  EXPECT_THAT(told->why, testing::HasSubstr("wheel rear_left: motor 3 (203) is silent"));
   EXPECT_EQ(told->nav, "NAV_FREE") << "no task failed";
   EXPECT_GT(log.event("event commands_end#2") - silenced, 2s);
   const auto later = log.truth_at(silenced + 1s);
@@ -180,7 +180,7 @@ TEST(MecanumSilent, OfOneMotorStopsTheRobot) {
   EXPECT_LT(rolled.rest - silenced, 2000ms);
   const auto& error = log.first_status("NAV_ERROR", silenced);
   EXPECT_LT(error.time - silenced, 400ms);
-  EXPECT_THAT(error.why, testing::HasSubstr("motor 3 (203) is silent"));
+  EXPECT_THAT(error.why, testing::HasSubstr("wheel rear_left: motor 3 (203) is silent"));
 }
 
 /// What brakes are the two others, on one diagonal: their rollers let it roll along the other.
@@ -191,7 +191,9 @@ TEST(MecanumTornStuck, StopsAndSaysWhatIsStuck) {
   const auto& error = log.first_status("NAV_ERROR", broken);
   figure("told after", error.time - broken);
   EXPECT_LT(error.time - broken, 600ms);
-  EXPECT_THAT(error.why, testing::HasSubstr("motor 2 (202) tells the same angle however hard it"));
+  EXPECT_THAT(
+      error.why,
+      testing::HasSubstr("wheel front_right: motor 2 (202) tells the same angle however hard it"));
   const Time again = log.event("event again#1");
   tell_way_to_rest(log, broken, again);
   const Roll rolled = roll(log, broken, again);

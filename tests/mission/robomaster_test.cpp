@@ -67,7 +67,7 @@ TEST(RobomasterSilent, IsToldInWordsAndEndsTheTask) {
   const auto& error = log.first_status("NAV_ERROR", silenced);
   figure("told after", error.time - silenced);
   EXPECT_LT(error.time - silenced, 400ms);
-  EXPECT_THAT(error.why, testing::HasSubstr("motor 3 (203) is silent"));
+  EXPECT_THAT(error.why, testing::HasSubstr("wheel rear_left: motor 3 (203) is silent"));
 }
 
 TEST(RobomasterSilent, GetsNoCurrentForTheWheelThatNobodySees) {
@@ -89,7 +89,9 @@ TEST(RobomasterStuck, IsFoundBeforeTheWheelThatSeemsToStandTurnsTheRobotFar) {
   ASSERT_TRUE(moved_until(log, stuck));
   const auto& error = log.first_status("NAV_ERROR", stuck);
   figure("told after", error.time - stuck);
-  EXPECT_THAT(error.why, testing::HasSubstr("motor 3 (203) tells the same angle however hard it"));
+  EXPECT_THAT(
+      error.why,
+      testing::HasSubstr("wheel rear_left: motor 3 (203) tells the same angle however hard it"));
   EXPECT_LT(error.time - stuck, 400ms);
   const Time end = log.truth.back().time - 10ms;
   tell_way_to_rest(log, stuck, end);

@@ -55,7 +55,7 @@ JointGroup::JointGroup(const GroupConfig& config, Duration start_timeout)
 void JointGroup::take(const JointTargets& targets, RequestId::Source source, Time now) {
   if (!std::all_of(targets.joints.begin(), targets.joints.end(), is_sound)) {
     ++told_.refused;
-    refuse(now);
+    refuse({}, now);
     return;
   }
   bool mine = false;
@@ -73,8 +73,9 @@ void JointGroup::take(const JointTargets& targets, RequestId::Source source, Tim
   sender_ = source == RequestId::Source::ros2 ? GroupOwner::ros2 : GroupOwner::broker;
 }
 
-void JointGroup::refuse(Time now) {
-  for (JointServo& joint : joints_) joint.refuse(now);
+void JointGroup::refuse(const JointTargetsRefused& refused, Time now) {
+  const bool was_there = refused.reason == kJustCameWords;
+  for (JointServo& joint : joints_) joint.refuse(was_there, now);
 }
 
 void JointGroup::end(const Reason& why) {

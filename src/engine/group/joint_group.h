@@ -20,7 +20,7 @@ class JointGroup final {
   /// The joints of the message that are its own; others are somebody else's.
   void take(const JointTargets& targets, RequestId::Source source, Time now);
   /// A command that was refused before anybody looked whose joints it names.
-  void refuse(Time now);
+  void refuse(const JointTargetsRefused& refused, Time now);
   /// A person's word, or a stop: what it follows ends.
   void end(const Reason& why);
 

@@ -44,6 +44,15 @@ void JointServo::take(const JointTarget& target, Time now) {
   target_ = target;
 }
 
+void JointServo::refuse(bool was_there, Time now) {
+  said_ = now;
+  if (heard_ != kNever || waits_ || (!engaged_ && !was_there)) return;
+  waits_ = true;
+  if (!was_there) return;
+  reason_ = "a start of droverd, or of what brings them";
+  by_itself_ = false;
+}
+
 void JointServo::end(const Reason& why) {
   // A drive that was found running is armed without anybody's command: there is nothing to end.
   const bool sent_once = said_ != kNever;
@@ -94,7 +103,8 @@ void JointServo::cease(Time now) {
     reason_ = "its commands have ceased";
     by_itself_ = ceased_ = true;
   }
-  if (heard_ != kNever && now - heard_ >= kPause) {
+  const Time last = heard_ != kNever ? heard_ : said_;
+  if (last != kNever && now - last >= kPause) {
     gap_ = {};
     reason_.clear();
   }

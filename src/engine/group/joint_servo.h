@@ -37,12 +37,9 @@ class JointServo final {
   /// A command that is sound; whether it is followed is decided by step().
   void take(const JointTarget& target, Time now);
   /// One that was refused, and may have been its: nobody pauses who sends it.
-  /// Before any was taken it came from who did not hear that this program began, and that its drive
-  /// was found running.
-  void refuse(Time now) {
-    said_ = now;
-    waits_ = waits_ || (engaged_ && heard_ == kNever);
-  }
+  /// Before any was taken it came from who did not hear that this program began: where its drive
+  /// was found running, or he `was_there` before the way by which it came.
+  void refuse(bool was_there, Time now);
   /// One that names others of its group: nobody pauses who sends it.
   void overhear(Time now);
   /// What it follows ends for a cause that lies elsewhere.

@@ -24,6 +24,14 @@ void put(Reason& out, const char* before, std::string_view name, std::string_vie
              static_cast<int>(text.size()), text.data());
 }
 
+/// By more than what lies between the frames of motors that talk.
+constexpr Duration kLonger = std::chrono::milliseconds(10);
+
+bool is_longer_silent(const AxisSnapshot& axis, const AxisSnapshot& other) {
+  if (other.last_motion == kNever) return false;
+  return axis.last_motion == kNever || other.last_motion - axis.last_motion > kLonger;
+}
+
 }  // namespace
 
 std::string_view line_name(Line line) {
@@ -48,10 +56,12 @@ HealthMonitor::HealthMonitor(const EngineConfig& config)
 }
 
 void HealthMonitor::hold(Cause cause, const Reason& text) {
-  const auto index = static_cast<std::size_t>(cause);
-  if (holds(cause)) return;  // the first of a kind speaks for all
+  if (!holds(cause)) tell(cause, text);  // the first of a kind speaks for all
+}
+
+void HealthMonitor::tell(Cause cause, const Reason& text) {
   report_.causes |= bit(cause);
-  report_.texts[index] = text;
+  report_.texts[static_cast<std::size_t>(cause)] = text;
 }
 
 void HealthMonitor::look_at_lines(const HealthInput& input) {
@@ -107,6 +117,9 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
   const Duration stale = from_s(config_.health.drive_stale_s);
   std::size_t driven = 0;
   std::size_t silent = 0;
+  // Motors behind one device are silent, or given up, together: the one that is it speaks.
+  const AxisSnapshot* silent_one = nullptr;
+  bool has_faulty_one = false;
   for (std::size_t i = 0; i < input.axes.size(); ++i) {
     if (!driven_[i]) continue;
     ++driven;
@@ -130,10 +143,19 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
     }
     if (!text.empty()) {
       ++silent;
-      hold(Cause::drive_silent, text);
+      if (silent_one == nullptr || is_longer_silent(axis, *silent_one)) {
+        silent_one = &axis;
+        tell(Cause::drive_silent, text);
+      }
     } else if (axis.state == AxisState::fault) {
       put(text, joint, axis.fault.empty() ? std::string_view("fault") : axis.fault.view());
-      hold(axis.stops_all ? Cause::base_stop : Cause::drive_fault, text);
+      const bool is_faulty_one = !axis.stops_all && axis.error_code != 0 && !has_faulty_one;
+      if (is_faulty_one) {
+        has_faulty_one = true;
+        tell(Cause::drive_fault, text);
+      } else {
+        hold(axis.stops_all ? Cause::base_stop : Cause::drive_fault, text);
+      }
     }
     report_.drives_ok = report_.drives_ok && text.empty();
     if (!text.empty() || axis.state != AxisState::running) {
@@ -145,7 +167,12 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
   if (driven == 0) {
     report_.drives_ok = report_.drives_running = false;
     hold(Cause::drive_silent, "no drives are configured");
-  } else if (silent == driven && driven > 1 && !takes_twist(base_)) {
+  }
+  for (const Cause cause : {Cause::drive_fault, Cause::drive_silent})
+    if (holds(cause) && driven > 0)
+      report_.not_running = report_.texts[static_cast<std::size_t>(cause)];
+  const bool all_silent = silent == driven && driven > 1 && !takes_twist(base_);
+  if (all_silent && !is_silent_alone(*silent_one, input)) {
     // The first is named all the same: its text carries the driver's or link's own reason.
     Reason all;
     const auto& first = report_.texts[static_cast<std::size_t>(Cause::drive_silent)];
@@ -153,6 +180,17 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
                first.view().data());
     report_.texts[static_cast<std::size_t>(Cause::drive_silent)] = all;
   }
+}
+
+/// All the others behind its device go on telling what they do.
+bool HealthMonitor::is_silent_alone(const AxisSnapshot& one, const HealthInput& input) const {
+  const Duration stale = from_s(config_.health.drive_stale_s);
+  for (std::size_t i = 0; i < input.axes.size(); ++i) {
+    const AxisSnapshot& axis = input.axes[i];
+    if (!driven_[i] || &axis == &one) continue;
+    if (!is_longer_silent(one, axis) || !tells_motion(axis, input.now, stale)) return false;
+  }
+  return true;
 }
 
 void HealthMonitor::look_at_guard(const Environment& environment) {

@@ -108,6 +108,8 @@ class HealthMonitor final {
 
  private:
   void hold(Cause cause, const Reason& text);
+  void tell(Cause cause, const Reason& text);
+  bool is_silent_alone(const AxisSnapshot& one, const HealthInput& input) const;
   void look_at_lines(const HealthInput& input);
   void look_at_drives(const HealthInput& input);
   void look_at_guard(const Environment& environment);

@@ -8,6 +8,7 @@ JointCommands::JointCommands(const JointCommandsConfig& config)
     : rules_(config.rules),
       broker_{TokenBucket(config.max_commands_Hz, config.command_burst)},
       ros2_(broker_),
+      just_came_(config.just_came),
       slow_down_("slow down: " + broker_.commands.in_words("messages")) {
   std::size_t groups = 1;
   for (const JointRule& joint : rules_.joints) groups = std::max(groups, joint.group + 1);

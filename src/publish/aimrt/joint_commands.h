@@ -12,6 +12,7 @@
 #include "publish/actions.h"
 #include "publish/aimrt/joint_command.h"
 #include "publish/aimrt/writers.h"
+#include "publish/arrival.h"
 #include "publish/token_bucket.h"
 
 namespace drover::publish::aimrt {
@@ -22,6 +23,9 @@ struct JointCommandsConfig {
   /// By each way, the broker and ROS 2: more are not looked at. 200 a second and what came late.
   double max_commands_Hz = 250;
   double command_burst = 50;
+  /// Since a way was opened, nobody's are followed: at least kJustCame, and as long as they may be
+  /// apart.
+  Duration just_came = kJustCame;
 };
 
 /// A message that could be read, and who wrote it.
@@ -42,6 +46,8 @@ class JointCommands final {
   void take(RequestId::Source source, const Read& read, Time now, Duration wall, Actions& out);
   /// What is older, by its time stamp or by when it came to this computer, is refused.
   Duration max_age() const { return rules_.max_age; }
+  /// Since a way was opened, nobody's are followed.
+  Duration just_came() const { return just_came_; }
   /// Messages of a flood that nobody looked at, so far.
   std::uint64_t unread() const { return unread_; }
   /// Programs that write at once, and which of them is followed; empty when there is one or none.
@@ -75,6 +81,7 @@ class JointCommands final {
 
   Way broker_;
   Way ros2_;
+  Duration just_came_;
   std::string slow_down_;  ///< what is said when the bucket of a way is empty
 };
 

@@ -28,6 +28,7 @@ class Ros2Joints : public testing::Test {
   static aimrt::JointCommandsConfig config() {
     aimrt::JointCommandsConfig config;
     config.rules.joints = {{"left"}, {"right"}, {"elbow", JointFollows::impedance, 1}};
+    config.just_came = kJustCame;
     return config;
   }
   std::string line(const std::string& message, const std::string& writer = "01.0a",
@@ -73,6 +74,28 @@ TEST_F(Ros2Joints, GoToTheEngineAsThoseOfTheBroker) {
   EXPECT_EQ(followed_.joints[0].axis, 2U);
   EXPECT_EQ(followed_.joints[0].position_rad, 0.5);
   EXPECT_EQ(followed_.joints[0].stiffness_Nmprad, 20);
+}
+
+/// Of a stream that may be slow the first message comes late.
+TEST_F(Ros2Joints, AreRefusedForAsLongAsTheyMayBeApart) {
+  aimrt::JointCommandsConfig slow = config();
+  slow.just_came = 1s;
+  aimrt::JointCommands commands(slow);
+  Ros2Outlet outlet{50, no_turns, {.joint_commands = &commands}};
+  Actions out;
+  EXPECT_TRUE(outlet.on_line(7, kTheyFollow, now_, out));
+  const auto refused = [&] {
+    out.clear();
+    EXPECT_TRUE(outlet.on_line(7, line(kWheels), now_, out));
+    return std::any_of(out.begin(), out.end(), [](const Action& action) {
+      const auto* command = std::get_if<Command>(&action);
+      return command != nullptr && std::holds_alternative<JointTargetsRefused>(command->body);
+    });
+  };
+  now_ += 999ms;
+  EXPECT_TRUE(refused());
+  now_ += 1ms;
+  EXPECT_FALSE(refused());
 }
 
 /// A stream that was there before droverd: refused, it has to pause.

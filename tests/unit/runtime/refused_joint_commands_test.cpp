@@ -291,6 +291,13 @@ TEST_F(RefusedJointCommands, AreFiftyAndMore) {
   EXPECT_GE(impossible().size() + malformed().size(), 50U);
 }
 
+/// Who may be so slow shows only then that he was there before.
+TEST_F(RefusedJointCommands, AreThoseOfAWayThatHasJustComeForAsLongAsTheyMayBeApart) {
+  EXPECT_EQ(joint_commands_config(config).just_came, publish::kJustCame);
+  config.engine.groups[0].joints[0].timeout_s = 0.8;
+  EXPECT_EQ(joint_commands_config(config).just_came, 800ms);
+}
+
 TEST_F(RefusedJointCommands, MoveNothingThatRests) {
   std::uint64_t sent = 0;
   each([&](const auto& payload, const char* why) {

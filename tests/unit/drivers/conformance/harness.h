@@ -228,7 +228,8 @@ class CanBench {
   TwinFrames twin_frames;
   std::vector<CanFrame> sent;
   std::vector<CanFrame> moving;  ///< of those: motion, by what was known when they left
-  StatusInWords status;
+  StatusInWords status;          ///< the last of any channel
+  std::array<StatusInWords, kMaxChannels> statuses{};
   AxisMotion motion;  ///< of the first channel
   std::array<AxisMotion, kMaxChannels> motions{};
   int off_list = 0;
@@ -254,7 +255,7 @@ class CanBench {
   void note() {
     for (const Measurement& m : out.measurements) {
       if (const auto* value = std::get_if<AxisStatus>(&m.value))
-        status = {*value, made.device->words(m)};
+        statuses[value->axis] = status = {*value, made.device->words(m)};
       if (const auto* value = std::get_if<AxisMotion>(&m.value)) {
         motions[value->axis] = *value;
         if (value->axis == 0) motion = *value;

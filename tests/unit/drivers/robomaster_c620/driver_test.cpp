@@ -197,6 +197,26 @@ TEST(Robomaster, GivesUpWhenAMotorSeemsToStandHoweverHardItIsPushed) {
   EXPECT_EQ(bench.status.state, AxisState::running);
 }
 
+/// They stop together: each says which it is, and that one that it is.
+TEST(Robomaster, TellsOfWhichMotorTheFaultIs) {
+  for (const auto& [fault, motor] :
+       {std::pair{"stuck_encoder:2", 1U}, {"over_temperature:4", 3U}}) {
+    CanBench bench(subject());
+    drive(bench);
+    ASSERT_TRUE(bench.twin->set_fault(fault, bench.now));
+    bench.run(milliseconds(1500), AxisRequest::run, 3.0);
+    for (std::size_t i = 0; i < kMotors; ++i) {
+      ASSERT_EQ(bench.statuses[i].state, AxisState::fault) << fault;
+      EXPECT_EQ(bench.statuses[i].error_code != 0, i == motor) << fault << " of " << i + 1;
+      EXPECT_EQ(bench.statuses[i].reason, bench.statuses[0].reason);
+    }
+    bench.twin->set_fault("", bench.now);
+    bench.run(milliseconds(100), AxisRequest::rest);
+    bench.run(milliseconds(500), AxisRequest::run, 3.0);
+    for (std::size_t i = 0; i < kMotors; ++i) EXPECT_EQ(bench.statuses[i].error_code, 0U) << fault;
+  }
+}
+
 /// A line that has contact again would turn the wheel by all that stood there.
 TEST(Robomaster, TellsNoCurrentToAMotorAtRestThatHasNone) {
   CanBench bench(subject());

@@ -70,6 +70,36 @@ TEST_F(EngineGroup, AStreamThatGoesOnOverARestartWaitsThoughItsWayComesLate) {
   EXPECT_EQ(told().state, GroupState::following) << reason();
 }
 
+/// Nor does who sent on while all was without power raise an arm that lies.
+TEST_F(EngineGroup, AStreamThatGoesOnOverARestartDoesNotArmWhatIsOff) {
+  settle();
+  for (int i = 0; i < 60; ++i) {
+    if (i % 2 == 0) rig.command(JointTargetsRefused{Reason(kJustCameWords)}, source);
+    tick();
+  }
+  send_s(4, 0.2);
+  EXPECT_EQ(arm[0].state, AxisState::idle);
+  EXPECT_EQ(told().state, GroupState::idle);
+  EXPECT_EQ(reason(),
+            "pause your commands for a second, then send again: it was stopped by a start "
+            "of droverd, or of what brings them");
+  run_s(1.1);
+  EXPECT_EQ(reason(), "");
+  send_s(4, 0.2);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+}
+
+/// Who goes on for long without being understood is no old stream of this arm's.
+TEST_F(EngineGroup, WhatIsRefusedForAnotherCauseKeepsNobodyFromBeginning) {
+  settle();
+  for (int i = 0; i < 60; ++i) {
+    if (i % 2 == 0) rig.command(JointTargetsRefused{"the message is no joint command"}, source);
+    tick();
+  }
+  send_s(4, 0.2);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+}
+
 TEST_F(EngineGroup, WhatTheGuardLetSinkIsHeldWhereItIsGivenBack) {
   settle();
   send_s(4, 0.4);

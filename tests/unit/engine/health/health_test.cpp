@@ -207,6 +207,37 @@ TEST_F(AHealthMonitor, SaysThatNoDriveAnswersWhenAllAreSilent) {
   for (auto& axis : axes) axis.last_motion = now - std::chrono::milliseconds(500);
   expect_stop("no drive answers (wheel front_left: no feedback for 0.50 s)");
 }
+/// Of motors behind one device all are given up together.
+TEST_F(AHealthMonitor, NamesTheWheelThatHasTheFaultOfADeviceOfSeveral) {
+  for (AxisSnapshot& axis : axes) {
+    axis.state = AxisState::fault;
+    axis.fault = "motor 2 is stuck";
+  }
+  axes[1].error_code = 1;
+  EXPECT_EQ(first_why(), "wheel front_right: motor 2 is stuck");
+  EXPECT_EQ(update().not_running, "wheel front_right: motor 2 is stuck");
+  axes[1].error_code = 0;
+  EXPECT_EQ(first_why(), "wheel front_left: motor 2 is stuck");
+}
+TEST_F(AHealthMonitor, NamesTheWheelThatIsSilentOfADeviceOfSeveral) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    environment.axes[i].state = SourceState::stale;
+    environment.axes[i].reason = "motor 2 is silent";
+  }
+  axes[1].last_motion = now - std::chrono::milliseconds(50);
+  axes[0].last_motion = now - std::chrono::milliseconds(2);
+  expect_stop("wheel front_right: motor 2 is silent");
+  EXPECT_EQ(first_why().find("no drive answers"), std::string::npos) << "three of four do";
+  axes[1].last_motion = kNever;
+  expect_stop("wheel front_right: motor 2 is silent");
+  axes[0].last_motion = kNever;
+  expect_stop("no drive answers (wheel front_left: motor 2 is silent)");
+  axes[0].last_motion = axes[1].last_motion = now - std::chrono::milliseconds(30);
+  expect_stop("no drive answers (wheel front_left: motor 2 is silent)");
+  axes[1].last_motion = now - std::chrono::milliseconds(800);
+  axes[0].last_motion = now - std::chrono::milliseconds(700);
+  expect_stop("no drive answers (wheel front_right: motor 2 is silent)");
+}
 /// Its cause is told first: what cut the power silenced the drives.
 TEST_F(AHealthMonitor, TellsWhatCutThePowerBeforeTheDrivesThatAreSilentWithoutIt) {
   for (auto& axis : axes) axis.last_motion = now - std::chrono::milliseconds(500);
