@@ -1,5 +1,7 @@
 #include "runtime/outlets.h"
 
+#include <algorithm>
+
 #include "publish/aimrt_outlet.h"
 #include "publish/cli_outlet.h"
 #include "publish/rtk_outlet.h"
