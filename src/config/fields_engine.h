@@ -58,6 +58,9 @@ void visit_antenna(V& v, C& c, Presence presence) {
 template <class V>
 void visit_gnss(V& v, engine::EstimateConfig& c) {
   visit_antenna(v, c, Presence::optional);
+  v.number("antenna_sigma_m", c.antenna_sigma_m, Range{0, 1},
+           "one sigma of antenna_x_m and antenna_y_m, until turns have told where the antenna is; "
+           "0: calibrated");
   v.number("heading_sigma_deg", c.heading_sigma_deg, Range{0.05, 20}, "one sigma of the heading");
   v.number("heading_mount_sigma_deg", c.heading_mount_sigma_deg, Range{0, 5},
            "one sigma of how the antenna line is mounted, until that was learned; 0: calibrated");

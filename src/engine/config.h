@@ -120,6 +120,9 @@ struct EstimateConfig {
   double antenna_z_m = 0.0;
   double heading_baseline_offset_deg = 0.0;         ///< of the antenna line from ahead, clockwise
   FixedVector<AntennaConfig, kMaxOfKind> antennas;  ///< of each receiver; empty: all have that
+  /// Of antenna_x_m and antenna_y_m, until turns have told where it is: the bound for people, four
+  /// sigma, then has room for a tape that was held to the wrong mark. 0: it was calibrated.
+  double antenna_sigma_m = 0.06;
   double heading_sigma_deg = 0.5;
   /// Of how the antenna line is mounted, until it was learned: 2 cm in a metre. The bound for
   /// people, four sigma, then just has room for all that can be learned. 0: it was calibrated.

@@ -208,6 +208,11 @@ double AntennaFit::arm_sigma_m() const {
   return std::sqrt(std::max({covariance_[kAhead][kAhead], covariance_[kLeft][kLeft], 0.0}));
 }
 
+double AntennaFit::arm_doubt_m(double sigmas, const EstimateConfig& config) const {
+  const double seen_m = std::hypot(ahead_m(), left_m()) + sigmas * arm_sigma_m();
+  return std::min(sigmas * config.antenna_sigma_m, seen_m);
+}
+
 bool AntennaFit::arm_wrong() const {
   return arm_sigma_m() <= kArmKnown_m &&
          std::hypot(ahead_m(), left_m()) > std::max(kCertain * arm_sigma_m(), kArmWrong_m);

@@ -59,6 +59,9 @@ class AntennaFit final {
   double ahead_m() const { return mean_[kAhead]; }
   double left_m() const { return mean_[kLeft]; }
   double arm_sigma_m() const;
+  /// How far beside the configured place it may be, m, at so many sigmas: as it was told, or, once
+  /// that is less, as turns tell it.
+  double arm_doubt_m(double sigmas, const EstimateConfig& config) const;
   /// It is, by more than can be chance.
   bool arm_wrong() const;
 

@@ -111,6 +111,8 @@ void Estimator::set_origin(const GeodeticPoint& origin) {
   state.broken = old.broken;
   state.gyro = old.gyro;
   state.gnss.unconfirmed_m = old.gnss.unconfirmed_m;
+  state.gnss.unbelieved = old.gnss.unbelieved;
+  state.gnss.unbelieved_m = old.gnss.unbelieved_m;
   state.heading.receiver = old.heading.receiver;
   state.mounting = old.mounting;
   state.fit = old.fit;
@@ -133,6 +135,8 @@ void Estimator::accept_position() {
   state.gnss.dispute = {};
   state.gnss.fixed = kNever;
   state.gnss.unconfirmed_m = 0;
+  state.gnss.unbelieved = {};
+  state.gnss.unbelieved_m = 0;
   state.gnss.replaced = kNever;
   state.watch = {};
   state.course = {};

@@ -36,6 +36,11 @@ struct Estimate {
   double unseen_aside_m = 0;
   double unseen_ahead_m = 0;  ///< likewise ahead, by the way that led against its heading
   double unseen_behind_m = 0;
+  /// Of two places one was believed after a minute: the other one is so far east and north of it,
+  /// until another fix is found.
+  double unbelieved_x_m = 0;
+  double unbelieved_y_m = 0;
+  double unbelieved_error_m = 0;   ///< two sigma; 0: there is none
   double yaw_error_rad = kAbsent;  ///< two sigma
   bool way_heals = false;          ///< RTK fixes come and no heading: only way driven tells it
   BodyMotion body;                 ///< as the base tells it, nothing learned applied
@@ -50,6 +55,7 @@ struct Estimate {
   double own_error_m = kAbsent;
   /// The last time that it was decided for where the receiver is; kNever: it was not.
   Time renewed = kNever;
+  Time found = kNever;  ///< there was an RTK fix again then, believed or not
   /// When it is decided at the latest if all stays as it is; kNever: not by waiting.
   Time decided_at = kNever;
   /// The position drifted or jumped while it drove, and nobody has accepted where it is.

@@ -139,6 +139,8 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
     if (verdict == Dispute::Verdict::renewed) {
       if (!moved_at_rest) gnss.renewed = state.time;
       gnss.unconfirmed_m = apart_m + known_m;
+      gnss.unbelieved = {-fix.offset.east_m, -fix.offset.north_m};
+      gnss.unbelieved_m = known_m;
       return FixVerdict::renewed;
     }
     // It stepped back, and may have jumped elsewhere meanwhile.
@@ -156,7 +158,11 @@ FixVerdict judge_jump(State& state, const FixBeside& fix, const EstimateConfig& 
     // After a moment it is the same solution, and as right or wrong as before.
     const bool another = state.time - gnss.believed > kAnotherFix;
     gnss.unconfirmed_m = std::max(another ? 0.0 : gnss.unconfirmed_m, doubt_m(fix.offset, known_m));
-    if (another) state.watch.stayed_m = 0;
+    if (another) {
+      state.watch.stayed_m = 0;
+      gnss.unbelieved = {};
+      gnss.unbelieved_m = 0;
+    }
   }
   if (!jumped) return FixVerdict::plain;
   gnss.dispute.begin(fix.offset, state.time, slipped_meanwhile(state, fix.offset, config),

@@ -73,6 +73,15 @@ AntennaPosition follow_quality(State& state, const AntennaPosition& position,
   return used;
 }
 
+/// Believed or not: from then on it is decided what it is worth.
+void note_found(State& state, const AntennaPosition& position) {
+  GnssTrack& gnss = state.gnss;
+  if (position.quality != GnssClass::fixed) return;
+  const bool lost = gnss.quality != GnssClass::fixed || state.time - gnss.heard > kFixGone;
+  if (lost) gnss.found = state.time;
+  gnss.heard = state.time;
+}
+
 /// Another receiver has errors of its own, and an antenna. Where the base is stays as it was: what
 /// the new one says must fit to that, as anything that it says later.
 void hand_over(State& state, std::uint8_t receiver, const EstimateConfig& config) {
@@ -82,7 +91,11 @@ void hand_over(State& state, std::uint8_t receiver, const EstimateConfig& config
   gnss.improved = kNever;
   gnss.jumps = {};
   gnss.dispute = {};
-  if (state.has_position) gnss.unconfirmed_m = 0;
+  if (state.has_position) {
+    gnss.unconfirmed_m = 0;
+    gnss.unbelieved = {};
+    gnss.unbelieved_m = 0;
+  }
   forget_fit(state, config);
   state.watch.forget();
   state.course = {};
@@ -283,6 +296,7 @@ void apply(State& state, const AntennaPosition& measured, const Twist& twist,
            const EstimateConfig& config) {
   const double speed_mps = std::hypot(twist.vx_mps, twist.vy_mps);
   if (measured.receiver != state.gnss.receiver) hand_over(state, measured.receiver, config);
+  note_found(state, measured);
   const AntennaPosition position = in_time(state, follow_quality(state, measured, config), twist);
   Belief& belief = state.belief;
   const TiltedArm tilted =

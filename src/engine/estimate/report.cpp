@@ -75,7 +75,12 @@ void Estimator::report(const State& state, Time now) {
   const double sure_m = kSure * std::hypot(std::hypot(doubt.two_sigma_m(belief),
                                                       2 * std::hypot(tilt_m, unmeasured_m)),
                                            2 * late_doubt_m, 2 * untold_m);
-  e.error_bound_m = state.has_position ? sure_m : kAbsent;
+  // An arm that is told to be wrong comes on top of it, in report_learned.
+  const bool tilt_seen = state.gyro.fresh(now, imu_stale_) && std::isfinite(state.gyro.roll_rad);
+  const bool arm_told = state.fit.arm_wrong() && tilt_seen;
+  const double arm_m = arm_told ? 0.0 : state.fit.arm_doubt_m(2 * kSure, config_);
+  const double bound_m = std::hypot(sure_m, arm_m);
+  e.error_bound_m = state.has_position ? bound_m : kAbsent;
   e.yaw_error_rad = state.has_heading ? two_sigma_rad : kAbsent;
 
   const bool fixed = state.gnss.fixed != kNever && now - state.gnss.fixed < kFixed;
@@ -83,7 +88,7 @@ void Estimator::report(const State& state, Time now) {
   e.way_heals = fixed && state.has_heading && !told;
 
   report_trouble(state, now);
-  report_unseen(state, sure_m);
+  report_unseen(state, bound_m);
   report_imu(state, now);
   report_learned(state);
   report_kept(state);
@@ -137,6 +142,7 @@ void Estimator::report_trouble(const State& state, Time now) {
   e.heading_doubted = heading_disagrees;
   e.elsewhere_m = state.gnss.unconfirmed_m;
   e.renewed = state.gnss.renewed;
+  e.found = state.gnss.found;
   e.decided_at = disputed ? dispute.decided_at() : kNever;
   e.slipped_m = watch.slipping() ? watch.slipped_m + std::abs(watch.last_gap_m) : 0;
   // One of the two is wrong, and nobody knows which: the error may be all that lies between them.
@@ -234,16 +240,19 @@ void Estimator::report_trouble(const State& state, Time now) {
 
 /// Motion is not decided by it, but for how far it leads aside of the track: where it goes straight
 /// on the robot is behind of where it thinks, on the same line.
-void Estimator::report_unseen(const State& state, double sure_m) {
+void Estimator::report_unseen(const State& state, double known_m) {
   Estimate& e = estimate_;
   const UnseenWay& unseen = state.unseen;
   if (!state.has_position) return;
+  e.unbelieved_x_m = state.gnss.unbelieved.east_m;
+  e.unbelieved_y_m = state.gnss.unbelieved.north_m;
+  e.unbelieved_error_m = state.gnss.unbelieved_m;
   e.unseen_way_m = unseen.way_m;
   e.unseen_aside_m = config_.unseen_slip_share * unseen.aside_m(e.pose.yaw_rad);
   e.unseen_slip_m = config_.unseen_slip_share * unseen.way_m;
   e.unseen_ahead_m = config_.unseen_slip_share * unseen.against_m(e.pose.yaw_rad);
   e.unseen_behind_m = config_.unseen_slip_share * unseen.in_m(e.pose.yaw_rad);
-  e.error_bound_m = sure_m + std::hypot(e.error_bound_m - sure_m, e.unseen_slip_m);
+  e.error_bound_m = known_m + std::hypot(e.error_bound_m - known_m, e.unseen_slip_m);
 }
 
 void Estimator::report_imu(const State& state, Time now) {

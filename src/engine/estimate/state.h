@@ -62,8 +62,13 @@ struct GnssTrack {
   bool arm_guessed = false;
   double guessed_m = 0;
   Time fixed = kNever;       ///< the last believed RTK fix
+  Time heard = kNever;       ///< the last one, believed or not
+  Time found = kNever;       ///< when there was one again after a while without
   Time renewed = kNever;     ///< of two places the new one was believed then
   double unconfirmed_m = 0;  ///< and so far away is the other one, until another fix is there
+  /// There, where that is known; and how well it is, two sigma.
+  Dispute::Offset unbelieved;
+  double unbelieved_m = 0;
   // A place that jumped while the base stood was believed then, so far from where it had been:
   Time replaced = kNever;
   double replaced_m = 0;

@@ -18,6 +18,8 @@ constexpr double kBack_m = 0.05;
 constexpr double kBackToTrack_mps = 0.2;
 // Of two places: after a minute of a fix that was found again, and is lost now and then.
 constexpr double kDecides_s = 90;
+// However often what is waited for begins anew: so many times the time-out.
+constexpr double kWholeWait = 5;
 constexpr Duration kShovedOfLate = std::chrono::seconds(2);
 constexpr Duration kReturnsWithin = std::chrono::seconds(20);
 constexpr double kSlowFrom = 0.5;  // share of the error budget from which on it slows
@@ -246,7 +248,7 @@ Reason Navigator::find_failure(const NavInput& input) {
   } else if (lost_too_long(input)) {
     const std::string_view cause =
         (input.health.locate_reason.empty() ? outside_ : input.health.locate_reason).view();
-    why.format("localisation was lost for %.0f s%s%.*s", limits.locate_timeout_s,
+    why.format("localisation was lost for %.0f s%s%.*s", to_s(input.now - lost_.since),
                cause.empty() ? "" : ": ", static_cast<int>(cause.size()), cause.data());
   } else if (goal_near_since_ != kNever &&
              input.now - goal_near_since_ > from_s(limits.arrival_timeout_s)) {
@@ -256,16 +258,39 @@ Reason Navigator::find_failure(const NavInput& input) {
   return why;
 }
 
-/// What is being decided is waited for, but not twice as long.
+/// Without a fix one is waited for; then what it is worth; and of two places, once one is believed,
+/// another fix: each has its own time, but not for ever. What is being decided is waited for, but
+/// not twice as long.
 bool Navigator::lost_too_long(const NavInput& input) const {
   const double limit_s = config_.navigate.locate_timeout_s;
-  if (!lost_.longer_than(limit_s, input.now)) return false;
+  if (!lost_.holds()) return false;
+  const Time since = std::max({lost_.since, input.estimate.found, input.estimate.renewed});
+  const auto longer_than = [&](double s) { return input.now - since > from_s(s); };
+  if (!longer_than(limit_s) && !lost_.longer_than(kWholeWait * limit_s, input.now)) return false;
   // It was just decided, and goes on soon.
   if (input.health.locate == LocateState::good && may_be_outside(input.estimate).empty())
     return false;
   const Time decided = input.estimate.decided_at;
-  const bool soon = decided != kNever && decided - lost_.since < from_s(kDecides_s + limit_s);
-  return !soon || lost_.longer_than(kDecides_s + limit_s, input.now);
+  const bool soon = decided != kNever && decided - since < from_s(kDecides_s + limit_s);
+  return !soon || longer_than(kDecides_s + limit_s);
+}
+
+/// How far beside the track the place may be that was not believed.
+double Navigator::unbelieved_m(const Estimate& estimate) const {
+  if (estimate.unbelieved_error_m == 0) return 0;
+  Pose other = estimate.pose;
+  other.x_m += estimate.unbelieved_x_m;
+  other.y_m += estimate.unbelieved_y_m;
+  return tracker_.beside_m(other) + estimate.unbelieved_error_m;
+}
+
+/// Inside its tolerance of the goal it has no need to go on to where the place that was not
+/// believed would be past the end.
+bool Navigator::ends_short(const Estimate& estimate, bool located) const {
+  const bool near = progress_.distance_left_m < kGoalNear_m &&
+                    progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m;
+  return near && located && begun_ && !constraint_.holds() &&
+         !(unbelieved_m(estimate) <= config_.navigate.corridor_m);
 }
 
 /// Of two places one is right, and nobody knows which: both have to be inside the corridor. So has
@@ -286,8 +311,17 @@ Reason Navigator::may_be_outside(const Estimate& estimate) const {
   const bool slipped_past = !(past_m <= corridor_m);
   const bool slipped_out = slipped_past || !(off_m + estimate.unseen_aside_m <= corridor_m);
   const bool other_out = estimate.disputed && !(off_m + estimate.predicted_error_m <= corridor_m);
-  if (!slipped_out && !other_out) return why;
+  const double unbelieved_off_m = unbelieved_m(estimate);
+  const bool unbelieved_out = !(unbelieved_off_m <= corridor_m);
+  if (!slipped_out && !other_out && !unbelieved_out) return why;
   if (estimate.disputed) return estimate.reason;
+  if (unbelieved_out) {
+    why.format(
+        "%.2f m beside the track here, had no wheel slipped while the RTK fix was lost; if the map "
+        "shows the robot where it stands: drover position accept",
+        unbelieved_off_m);
+    return why;
+  }
   why.format("%.1f m driven without an RTK fix: %.2f m %s the track here, had the wheels slipped",
              estimate.unseen_way_m, slipped_past ? past_m : estimate.unseen_aside_m,
              slipped_past ? "past the end of" : "beside");
@@ -378,7 +412,8 @@ NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
   watch_pauses(input, events);
   watch_shoves(input);
   // What holds it up at its goal holds up nothing any more.
-  const bool there = progress_.arrived && !lost_.holds() && !constraint_.holds();
+  const bool near_enough = ends_short(input.estimate, located);
+  const bool there = near_enough || (progress_.arrived && !lost_.holds() && !constraint_.holds());
   if (phase_ == Phase::paused && !there) {
     if (goal_near_since_ != kNever) goal_near_since_ = input.now;  // waiting is not creeping
     return {{}, true, Stop::controlled, asked(input)};
@@ -386,7 +421,7 @@ NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
   if (goal_near_since_ == kNever && progress_.distance_left_m < kGoalNear_m) {
     goal_near_since_ = input.now;
   }
-  stopping_at_goal_ = stopping_at_goal_ || progress_.arrived;
+  stopping_at_goal_ = stopping_at_goal_ || progress_.arrived || near_enough;
   if (stopping_at_goal_) {
     settle_at_goal(input, events);
     return {{}, active(), Stop::none};  // a ramp as the tracker foresaw it

@@ -96,6 +96,8 @@ class Navigator final {
   void watch_shoves(const NavInput& input);
   double speed_cap_mps(const NavInput& input) const;
   bool lost_too_long(const NavInput& input) const;
+  double unbelieved_m(const Estimate& estimate) const;
+  bool ends_short(const Estimate& estimate, bool located) const;
   /// Why the robot may be outside of its corridor; empty: it may not.
   Reason may_be_outside(const Estimate& estimate) const;
   bool waits() const { return obstacle_.holds() || constraint_.holds() || lost_.holds(); }

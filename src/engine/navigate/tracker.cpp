@@ -163,6 +163,14 @@ double Tracker::stop_distance_m(double speed_mps) const {
   return v * config_.drive_lag_s + ramp_m;
 }
 
+double Tracker::beside_m(const Pose& other) const {
+  if (!active_ || !usable(other)) return 0;
+  constexpr int kIterations = 12;  // of a quarter of a metre
+  const LineFoot foot = find_foot(route_, leg_, station_, s_m_, place(other), kIterations);
+  if (is_last_leg() && foot.s_m > goal_m_) return length(goal_ - place(other));
+  return std::abs(offset_m(route_, leg_, station_, foot, place(other)));
+}
+
 TrackProgress Tracker::locate(const Pose& seen) {
   TrackProgress progress;
   progress.joined = joined_;

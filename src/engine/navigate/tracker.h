@@ -55,6 +55,8 @@ class Tracker final {
   /// Progress at a pose. The search looks only near the last place, so a track that crosses itself
   /// or comes back close to itself stays on its leg. Call each cycle, also while paused.
   TrackProgress locate(const Pose& pose);
+  /// How far another place, a few metres from the last one at the most, is from the track (m).
+  double beside_m(const Pose& other) const;
   /// The twist wanted now. `speed_cap_mps` is the least of all caps in force (far zone, error
   /// budget); 0 gives a twist of zero. Speed is shaped only by the path (curvature, end);
   /// acceleration and jerk are the gate's. `may_go_aside`: a base that goes sideways does so now;

@@ -157,7 +157,7 @@ TEST(AFixThatIsFoundElsewhere, AfterAPauseForItTakesNothingOutOfTheCorridorOrThe
     plan.gst = seed % 2 == 0;
     plan.outage_s = {15, seed % 4 < 2 ? 45.0 : 42.0};
     plan.float_s = {plan.outage_s.to, 45};
-    plan.step_s = {45, seed % 2 == 0 ? 75.0 : 90.0};  // no minute, after which it may be believed
+    plan.step_s = {45, seed % 2 == 0 ? INFINITY : 75};
     plan.step_m = 0.7;
     plan.step_rad = kPi / 4 * static_cast<double>(seed);
     FieldWorld world(field_config(), plan, seed);
@@ -165,6 +165,68 @@ TEST(AFixThatIsFoundElsewhere, AfterAPauseForItTakesNothingOutOfTheCorridorOrThe
     EXPECT_EQ(end.outside_s, 0) << seed << ": " << end.worst_outside_m;
     EXPECT_EQ(end.beyond_s, 0) << seed;
   }
+}
+
+/// How long it waited for a fix is no reason to wait shorter for what that is worth: a wrong one
+/// that steps back within a minute ends no task.
+TEST(AFixThatIsFoundElsewhere, HasItsOwnTimeAfterAPauseForIt) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(4); ++seed) {
+    FieldPlan plan;
+    plan.gst = seed % 2 == 0;
+    plan.outage_s = {12, 62};
+    plan.step_s = {62, 110};
+    plan.step_m = 0.7;
+    plan.step_rad = seed < 3 ? kPi / 2 : 0;  // no slip explains it
+    FieldWorld world(field_config(), plan, seed);
+    const Judgement end = world.drive(field_rows(1, 40), 400);
+    EXPECT_TRUE(end.success) << seed << ": " << end.words;
+    EXPECT_EQ(end.outside_s, 0) << seed;
+    EXPECT_EQ(end.beyond_s, 0) << seed;
+  }
+}
+
+/// Two minutes in which no fix stays for as long as a look takes; and for good.
+TEST(AStandAndLook, EndsNoTaskWhileFixesComeAndGo) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(4); ++seed) {
+    for (const bool for_good : {false, true}) {
+      FieldPlan plan;
+      plan.heading_off_deg = seed % 2 == 0 ? 4 : -4;
+      const double until_s = for_good ? 500 : 140;
+      for (double at_s = 16; at_s < until_s; at_s += 6)
+        plan.more.push_back({bench::Trouble::Kind::floats, {at_s, at_s + 3.5}});
+      FieldWorld world(field_config(), plan, seed);
+      const Judgement end = world.drive(field_rows(1, 40), 600);
+      EXPECT_EQ(end.success, !for_good) << seed << ": " << end.words;
+      EXPECT_EQ(end.outside_s, 0) << seed;
+      EXPECT_GT(end.paused_s, for_good ? 290 : 80) << seed << ": " << end.words;
+    }
+  }
+}
+
+/// A tape that was held to the wrong mark: before the first turn nothing shows it.
+TEST(AnAntennaThatIsElsewhere, IsInTheBoundFromTheStart) {
+  for (const double lever_m : {-0.2, 0.2}) {
+    for (const bool aside : {false, true}) {
+      FieldPlan plan;
+      (aside ? plan.lever_y_m : plan.lever_x_m) = lever_m;
+      plan.gst = true;
+      FieldWorld world(field_config(), plan, 1);
+      double bound_m = 0;
+      const auto watch = [&](const Snapshot& seen, const Pose&, double) {
+        bound_m = seen.nav.error_bound_m;
+      };
+      const Judgement end = world.drive(field_rows(2, 20), 300, watch);
+      EXPECT_EQ(end.outside_s, 0) << lever_m << ' ' << aside << ": " << end.worst_outside_m;
+      EXPECT_GT(bound_m, 0.15) << "where it is was told by then, and it is not made up for";
+    }
+  }
+  FieldWorld world(field_config(), FieldPlan{.gst = true}, 1);
+  double bound_m = 0;
+  const auto watch = [&](const Snapshot& seen, const Pose&, double) {
+    bound_m = seen.nav.error_bound_m;
+  };
+  (void)world.drive(field_rows(2, 20), 300, watch);
+  EXPECT_LT(bound_m, 0.15) << "a turn showed that it is where it was said to be";
 }
 
 /// What they lost on the straight is beside the track in the turn behind it.

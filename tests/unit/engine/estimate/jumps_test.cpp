@@ -205,6 +205,30 @@ TEST_P(AFixThatIsFoundAfterAWay, IsBelievedAfterAMinuteWhereSlipExplainsIt) {
   EXPECT_EQ(rig.share_bound(), 1) << "the other place is in it";
 }
 
+/// Where the base is had nothing slipped is told until another fix is found.
+TEST_P(AFixThatIsFoundAfterAWay, TellsOfTheOtherPlaceUntilAnotherFixIsFound) {
+  find(beside().m);
+  rig.stand(75);
+  const bool slipped = beside().yaw_rad == kPi;
+  ASSERT_EQ(rig.last.disputed, !slipped) << rig.last.reason.view();
+  if (!slipped) return;
+  EXPECT_NEAR(rig.last.pose.x_m - rig.x_m, beside().m, 0.1);
+  EXPECT_NEAR(rig.last.unbelieved_x_m, -beside().m, 0.2);
+  EXPECT_NEAR(rig.last.unbelieved_y_m, 0, 0.2);
+  EXPECT_GT(rig.last.unbelieved_error_m, 0);
+  lose();
+  rig.stand(5);
+  find(beside().m);
+  rig.stand(5);
+  EXPECT_GT(rig.last.unbelieved_error_m, 0) << "after a moment it is the same solution";
+  lose();
+  rig.stand(15);
+  find(beside().m);
+  rig.stand(5);
+  EXPECT_EQ(rig.last.unbelieved_error_m, 0);
+  EXPECT_EQ(rig.last.unbelieved_x_m, 0);
+}
+
 TEST_P(AFixThatIsFoundAfterAWay, IsBelievedWhenItStepsToDeadReckoning) {
   find(beside().m);
   rig.stand(20);

@@ -88,6 +88,25 @@ TEST(CheckPath, AcceptsEqualNeighboursAndLongSegments) {
   EXPECT_TRUE(check_path(path_of({{0, 0}, {0, 0}, {999, 0}, {999, 0}}), 0).empty());
 }
 
+/// Where the robot may be, too: its track is the same, and it is not moved along it by that.
+TEST(Tracker, TellsHowFarAnotherPlaceIsBesideTheTrack) {
+  const Path path = hairpin();
+  Tracker t = tracker();
+  EXPECT_EQ(t.beside_m(pose_at(5, 1, 0)), 0) << "there is none";
+  t.begin(path, last(path), 0.5, pose_at(9.6, 0, 0));
+  const double left_m = t.locate(pose_at(9.6, 0, 0)).distance_left_m;
+  EXPECT_NEAR(t.beside_m(pose_at(9, 0, 0)), 0, 0.02);
+  EXPECT_NEAR(t.beside_m(pose_at(9, -0.3, 0)), 0.3, 0.02);
+  EXPECT_NEAR(t.beside_m(pose_at(7.5, 0.4, 0)), 0.4, 0.02);
+  // The turn is about (10, 1).
+  EXPECT_NEAR(t.beside_m(pose_at(11.6, 1, 0)), 0.6, 0.03);
+  EXPECT_NEAR(t.beside_m(pose_at(10.6, 0.8, 0)), 1 - std::hypot(0.6, 0.2), 0.04);
+  EXPECT_NEAR(t.locate(pose_at(9.6, 0, 0)).distance_left_m, left_m, 1e-9);
+  t.begin(path, 20, 0.5, pose_at(8, 0, 0));
+  (void)t.locate(pose_at(8, 0, 0));
+  EXPECT_NEAR(t.beside_m(pose_at(10.5, 0.3, 0)), std::hypot(0.5, 0.3), 0.05) << "past its end";
+}
+
 TEST(Tracker, GivesNoMotionBeforeBeginAndAfterEnd) {
   const Path path = path_of({{0, 0}, {10, 0}});
   const Pose pose = pose_at(1, 0, 0);
