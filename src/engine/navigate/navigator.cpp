@@ -18,7 +18,8 @@ constexpr double kBack_m = 0.05;
 constexpr double kBackToTrack_mps = 0.2;
 // Of two places: after a minute of a fix that was found again, and is lost now and then.
 constexpr double kDecides_s = 90;
-// However often what is waited for begins anew: so many times the time-out.
+// However often what is waited for begins anew: so many times the
+// time-out, and one decision.
 constexpr double kWholeWait = 5;
 constexpr Duration kShovedOfLate = std::chrono::seconds(2);
 constexpr Duration kReturnsWithin = std::chrono::seconds(20);
@@ -266,13 +267,14 @@ bool Navigator::lost_too_long(const NavInput& input) const {
   if (!lost_.holds()) return false;
   const Time since = std::max({lost_.since, input.estimate.found, input.estimate.renewed});
   const auto longer_than = [&](double s) { return input.now - since > from_s(s); };
-  if (!longer_than(limit_s) && !lost_.longer_than(kWholeWait * limit_s, input.now)) return false;
+  const bool wholly = lost_.longer_than(kWholeWait * limit_s + kDecides_s, input.now);
+  if (!longer_than(limit_s) && !wholly) return false;
   // It was just decided, and goes on soon.
   if (input.health.locate == LocateState::good && may_be_outside(input.estimate).empty())
     return false;
   const Time decided = input.estimate.decided_at;
   const bool soon = decided != kNever && decided - since < from_s(kDecides_s + limit_s);
-  return !soon || longer_than(kDecides_s + limit_s);
+  return wholly || !soon || longer_than(kDecides_s + limit_s);
 }
 
 /// How far beside the track the place may be that was not believed.
