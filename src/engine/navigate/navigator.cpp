@@ -18,8 +18,7 @@ constexpr double kBack_m = 0.05;
 constexpr double kBackToTrack_mps = 0.2;
 // Of two places: after a minute of a fix that was found again, and is lost now and then.
 constexpr double kDecides_s = 90;
-// However often what is waited for begins anew: so many times the
-// time-out, and one decision.
+// However often what is waited for begins anew: so many times the time-out, and one decision.
 constexpr double kWholeWait = 5;
 constexpr Duration kShovedOfLate = std::chrono::seconds(2);
 constexpr Duration kReturnsWithin = std::chrono::seconds(20);
