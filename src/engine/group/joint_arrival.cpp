@@ -48,10 +48,9 @@ void JointArrival::look_at_pressing(const JointMeasured& measured, const Impedan
   const bool before = presses();
   pressed_s_ += dt_s;
   if (before || !presses()) return;
-  why_.format(
-      "it presses with %.1f Nm for %.0f s and comes no nearer to its set point: it is blocked, "
-      "pushed, or mirrored in the configuration",
-      way * gives_Nm, kFor_s);
+  // Short enough to stand behind what is said of a stop.
+  why_.format("it presses with %.1f Nm and comes no nearer: blocked, pushed, or mirrored",
+              way * gives_Nm);
 }
 
 /// A law that is too soft to press hard.

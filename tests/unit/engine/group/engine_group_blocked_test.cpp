@@ -8,7 +8,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* kPresses = "and comes no nearer to its set point";
+constexpr const char* kPresses = "and comes no nearer: blocked, pushed, or mirrored";
 
 class EngineGroupBlocked : public EngineGroup {
  protected:
