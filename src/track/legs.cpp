@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "track/line_end.h"
+
 namespace drover::track {
 namespace {
 
@@ -16,9 +18,19 @@ constexpr double kFoldSpread_m = 0.6;    // there and back, as far as chords see
 Leg leg_to_target(const Route& route, std::size_t first, double first_m, double end_m) {
   const std::size_t last = route.size() - 1;
   const Vector fallback = unit(route.point(last) - route.point(first), {1, 0});
-  Leg leg = {first, last, first_m, end_m, {}, {}};
+  Leg leg;
+  leg.first = first;
+  leg.last = last;
+  leg.first_m = first_m;
+  leg.last_m = end_m;
   leg.enter = unit(chord_after(route, first, last, kEndChord_m), fallback);
   leg.leave = unit(chord_before(route, last, first, kEndChord_m), leg.enter);
+  if (const auto end = line_end(route, first)) {
+    leg.leave = end->ahead;
+    leg.arc_from_m = end_m - kSmoothing_m;
+    leg.arc_end = end->point;
+    leg.arc_radpm = end->curvature_radpm;
+  }
   return leg;
 }
 
@@ -27,6 +39,7 @@ Leg leg_to_corner(const Route& route, const Leg& leg, const Station& corner) {
   shorter.last = corner.segment;
   shorter.last_m = corner.start_m;
   shorter.leave = unit(chord_before(route, shorter.last, leg.first, kEndChord_m), leg.enter);
+  shorter.arc_from_m = INFINITY;
   return shorter;
 }
 

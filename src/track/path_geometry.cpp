@@ -8,6 +8,21 @@ namespace {
 
 constexpr double kShortestChord_m = 0.10;
 constexpr double kCornerChord_m = 0.25;
+constexpr double kArcPiece_m = kSmoothing_m / 4;
+
+/// So far beyond the end of a leg that ends in an arc; before it where that is negative.
+Vector on_arc(const Leg& leg, double out_m) {
+  const double bent_m = std::min(out_m, leg.last_m - leg.arc_from_m);
+  const double turned_rad = leg.arc_radpm * bent_m;
+  const Vector left{-leg.leave.y, leg.leave.x};
+  const auto along = [&](double way_m, double rad) {
+    return way_m * (std::cos(rad) * leg.leave + std::sin(rad) * left);
+  };
+  const double half_rad = turned_rad / 2;
+  const double chord_m =
+      std::abs(half_rad) < 1e-6 ? bent_m : bent_m * std::sin(half_rad) / half_rad;
+  return leg.arc_end + along(chord_m, half_rad) + along(out_m - bent_m, turned_rad);
+}
 
 /// A walk ahead along a leg. It knows its segment's length, so that a step costs no root.
 class Walk final {
@@ -18,6 +33,7 @@ class Walk final {
   /// Not before the last place.
   Vector at(double s_m) {
     if (s_m < leg_.first_m) return route_.point(leg_.first) + (s_m - leg_.first_m) * leg_.enter;
+    if (s_m >= leg_.arc_from_m) return on_arc(leg_, s_m - leg_.last_m);
     if (s_m > leg_.last_m) return route_.point(leg_.last) + (s_m - leg_.last_m) * leg_.leave;
     while (s_m > end_m() && goes_on()) enter({station_.segment + 1, end_m()});
     if (segment_m_ <= 0) return from_;
@@ -26,9 +42,10 @@ class Walk final {
   /// Of the straight piece that begins at `s_m`: where an end of the leg or a point ends it.
   double straight_until_m(double s_m) {
     if (s_m < leg_.first_m) return leg_.first_m;
+    if (s_m >= leg_.arc_from_m) return arc_until_m(s_m);
     if (s_m >= leg_.last_m) return INFINITY;
     while (end_m() <= s_m && goes_on()) enter({station_.segment + 1, end_m()});
-    return end_m() > s_m ? end_m() : INFINITY;
+    return std::min(end_m() > s_m ? end_m() : INFINITY, leg_.arc_from_m);
   }
 
  private:
@@ -37,6 +54,12 @@ class Walk final {
     from_ = route_.point(station.segment);
     way_ = route_.point(station.segment + 1) - from_;
     segment_m_ = length(way_);
+  }
+  /// An arc is taken in pieces.
+  double arc_until_m(double s_m) const {
+    const double past_m = s_m - leg_.arc_from_m;
+    if (past_m >= 2 * (leg_.last_m - leg_.arc_from_m)) return INFINITY;
+    return leg_.arc_from_m + (std::floor(past_m / kArcPiece_m + 1e-6) + 1) * kArcPiece_m;
   }
   double end_m() const { return station_.start_m + segment_m_; }
   bool goes_on() const { return station_.segment + 1 < leg_.last; }
@@ -109,8 +132,9 @@ Station seek(const Route& route, const Leg& leg, Station station, double s_m) {
 
 Vector position(const Route& route, const Leg& leg, Station& station, double s_m) {
   if (s_m < leg.first_m) return route.point(leg.first) + (s_m - leg.first_m) * leg.enter;
+  if (s_m <= leg.last_m) station = seek(route, leg, station, s_m);
+  if (s_m >= leg.arc_from_m) return on_arc(leg, s_m - leg.last_m);
   if (s_m > leg.last_m) return route.point(leg.last) + (s_m - leg.last_m) * leg.leave;
-  station = seek(route, leg, station, s_m);
   const Vector a = route.point(station.segment);
   const Vector b = route.point(station.segment + 1);
   const double ab_m = length(b - a);

@@ -84,14 +84,18 @@ struct Station {
   double start_m = 0;
 };
 
-/// A stretch without a true corner inside. Beyond its ends it goes on straight.
+/// A stretch without a true corner inside. Beyond its ends it goes on straight. One that ends at
+/// the target may end in an arc (line_end), which takes the place of its last points.
 struct Leg {
   std::size_t first = 0;  ///< point of the route
   std::size_t last = 0;
   double first_m = 0;  ///< arc length there
   double last_m = 0;
-  Vector enter{1, 0};  ///< direction at the first point
-  Vector leave{1, 0};  ///< direction at the last point
+  Vector enter{1, 0};            ///< direction at the first point
+  Vector leave{1, 0};            ///< direction at the last point
+  double arc_from_m = INFINITY;  ///< from there on it is the arc; as far beyond its end, too
+  Vector arc_end{};
+  double arc_radpm = 0;  ///< curvature, counter-clockwise positive
 };
 
 /// Moves a station to where `s_m` is, inside the leg.
