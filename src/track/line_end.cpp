@@ -14,8 +14,9 @@ constexpr double kMost_m = 4;
 constexpr double kLeast_m = 1;
 constexpr double kApart_m = 0.1;
 constexpr std::size_t kFewest = 4;
-/// Of an arc, rms; the second where there is none so near: a chord is farther off.
-constexpr std::array kBeside_m{0.014, 0.03};
+// Of an arc, rms.
+constexpr double kNoise_m = 0.014;
+constexpr double kMostBeside_m = 0.03;  // where there is none so near: a chord is farther off
 constexpr int kIterations = 5;
 
 /// A point of the route, so far back from its last one, along it.
@@ -51,11 +52,10 @@ struct Arc {
 
   /// How far left of it a place is that lies so far back along it.
   double left_m(const Mark& mark) const {
-    const double half_rad = curvature_radpm * mark.back_m / 2;
-    const double share = std::abs(half_rad) < 1e-6 ? 1 : std::sin(half_rad) / half_rad;
-    const double chord_m = share * mark.back_m;
-    const Vector there = end - chord_m * towards(direction_rad - half_rad);
-    return cross(towards(direction_rad - 2 * half_rad), mark.place - there);
+    const double turned_rad = curvature_radpm * mark.back_m;
+    const Vector there =
+        end - chord_m(mark.back_m, turned_rad) * towards(direction_rad - turned_rad / 2);
+    return cross(towards(direction_rad - turned_rad), mark.place - there);
   }
 };
 
@@ -111,16 +111,17 @@ double rms_beside_m(const Arc& arc, Marks marks) {
 
 std::optional<LineEnd> line_end(const Route& route, std::size_t first) {
   std::array<Mark, static_cast<std::size_t>(kMost_m / kApart_m) + 1> all;
-  const Marks whole(all.data(), mark_back(route, first, all));
-  for (const double beside_m : kBeside_m) {
-    for (Marks marks = whole; marks.size() >= kFewest && marks.back().back_m >= kLeast_m;
-         marks = marks.first(marks.size() - 1)) {
-      const Arc arc = fit(marks);
-      if (rms_beside_m(arc, marks) <= beside_m)
-        return LineEnd{arc.end, towards(arc.direction_rad), arc.curvature_radpm};
-    }
+  std::optional<LineEnd> longest;
+  for (Marks marks(all.data(), mark_back(route, first, all));
+       marks.size() >= kFewest && marks.back().back_m >= kLeast_m;
+       marks = marks.first(marks.size() - 1)) {
+    const Arc arc = fit(marks);
+    const double beside_m = rms_beside_m(arc, marks);
+    const LineEnd end{arc.end, towards(arc.direction_rad), arc.curvature_radpm};
+    if (beside_m <= kNoise_m) return end;
+    if (beside_m <= kMostBeside_m && !longest) longest = end;
   }
-  return std::nullopt;
+  return longest;
 }
 
 }  // namespace drover::track

@@ -18,10 +18,8 @@ Vector on_arc(const Leg& leg, double out_m) {
   const auto along = [&](double way_m, double rad) {
     return way_m * (std::cos(rad) * leg.leave + std::sin(rad) * left);
   };
-  const double half_rad = turned_rad / 2;
-  const double chord_m =
-      std::abs(half_rad) < 1e-6 ? bent_m : bent_m * std::sin(half_rad) / half_rad;
-  return leg.arc_end + along(chord_m, half_rad) + along(out_m - bent_m, turned_rad);
+  return leg.arc_end + along(chord_m(bent_m, turned_rad), turned_rad / 2) +
+         along(out_m - bent_m, turned_rad);
 }
 
 /// A walk ahead along a leg. It knows its segment's length, so that a step costs no root.

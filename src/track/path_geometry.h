@@ -38,6 +38,11 @@ inline double cross(Vector a, Vector b) {
 inline double length(Vector a) {
   return std::sqrt(dot(a, a));
 }
+/// Of an arc so long, on which the line turns by so much (m, rad): its two ends are so far apart.
+inline double chord_m(double arc_m, double turned_rad) {
+  const double half_rad = turned_rad / 2;
+  return std::abs(half_rad) < 1e-6 ? arc_m : arc_m * std::sin(half_rad) / half_rad;
+}
 /// `otherwise` where `a` has no direction.
 Vector unit(Vector a, Vector otherwise);
 
