@@ -71,8 +71,8 @@ void Engine::Impl::tell_sender(Time now, Owner owner, const Stream& stream, Owne
   if (!to_him || !stream.refuses(now)) return;
   const auto tell = [this](const Reason& what) {
     const auto& why = snapshot.why;
-    const bool told = std::find(why.begin(), why.end(), what) != why.end();
-    if (!told && !health.report().gives(what)) snapshot.tell_why(what);
+    const bool stands_there = std::find(why.begin(), why.end(), what) != why.end();
+    if (!stands_there && !health.report().gives(what)) snapshot.tell_why(what);
   };
   // What is in the way still is told with its newest distance.
   if (!stream.obstacle().empty()) {

@@ -18,12 +18,10 @@ namespace {
 
 constexpr double kSigmas = 4;  // the peer's bound: as many as the estimate's for people
 
-enum class Way { rows, straight, curve };
-
 struct Row {
   const char* name;
   const char* what;
-  Way way;
+  FieldWay way;
   int rows;
   void (*change)(FieldPlan&, double share);
 };
@@ -33,31 +31,31 @@ double whole(double share, double from, double more) {
 }
 
 const Row kRows[] = {
-    {"well", "nothing is wrong, two rows", Way::rows, 2, [](FieldPlan&, double) {}},
-    {"out_straight", "no receiver for 30 s, on a straight", Way::straight, 1,
+    {"well", "nothing is wrong, two rows", FieldWay::rows, 2, [](FieldPlan&, double) {}},
+    {"out_straight", "no receiver for 30 s, on a straight", FieldWay::straight, 1,
      [](FieldPlan& p, double) {
        p.outage_s = {kOut_s, kOut_s + kOutage_s};
      }},
-    {"out_curve", "no receiver for 30 s, on a curve of 10 m radius", Way::curve, 1,
+    {"out_curve", "no receiver for 30 s, on a curve of 10 m radius", FieldWay::curve, 1,
      [](FieldPlan& p, double) {
        p.outage_s = {kOut_s, kOut_s + kOutage_s};
      }},
-    {"slip_30", "slip of 30 % for 2 s", Way::rows, 2,
+    {"slip_30", "slip of 30 % for 2 s", FieldWay::rows, 2,
      [](FieldPlan& p, double share) {
        p.slip_s = {whole(share, 8, 20), whole(share, 10, 20)};
        p.slip_share = 0.3;
      }},
-    {"step_15", "another integer solution, 15 cm off for 10 s", Way::rows, 2,
+    {"step_15", "another integer solution, 15 cm off for 10 s", FieldWay::rows, 2,
      [](FieldPlan& p, double share) {
        p.step_s = {whole(share, 8, 20), whole(share, 18, 20)};
        p.step_m = 0.15;
        p.step_rad = 2 * kPi * 7 * share;
      }},
-    {"mount_2", "heading mounted 2 degrees off, four rows", Way::rows, 4,
+    {"mount_2", "heading mounted 2 degrees off, four rows", FieldWay::rows, 4,
      [](FieldPlan& p, double) { p.heading_off_deg = 2; }},
-    {"late_200", "stamps 0.2 s late, four rows", Way::rows, 4,
+    {"late_200", "stamps 0.2 s late, four rows", FieldWay::rows, 4,
      [](FieldPlan& p, double) { p.late_s = 0.2; }},
-    {"slope_5", "side slope of 5 degrees, entered and left", Way::rows, 2,
+    {"slope_5", "side slope of 5 degrees, entered and left", FieldWay::rows, 2,
      [](FieldPlan& p, double share) {
        p.slope_m = {whole(share, 4, 4), 40};
        p.slope_deg = 5;
@@ -67,16 +65,6 @@ const Row kRows[] = {
 double share_of(std::uint64_t seed) {
   const double x = static_cast<double>(seed) * 0.6180339887498949;
   return x - std::floor(x);
-}
-
-Path way_of(const Row& row) {
-  if (row.way == Way::rows) return field_rows(row.rows, 20);
-  if (row.way == Way::straight) return field_rows(1, 60);
-  test::Pen pen;
-  pen.arc(10, 6);
-  Path path = test::record(pen.points());
-  path.name = "curve";
-  return path;
 }
 
 /// It drives on however little it knows: the estimates are what is looked at.
@@ -91,7 +79,7 @@ engine::EngineConfig config_of_field() {
 FieldRecord record_row(const Row& row, std::uint64_t seed) {
   FieldPlan plan;
   row.change(plan, share_of(seed));
-  return record_drive(config_of_field(), plan, way_of(row), 400, seed);
+  return record_drive(config_of_field(), plan, field_way(row.way, row.rows), 400, seed);
 }
 
 Errors judge_drover(const FieldRecord& record) {
@@ -166,7 +154,7 @@ std::vector<Goal> goals_of(const Row& row, const Figures& f) {
       {"rms, of the usual filter's", f.ratio(&Errors::rms_m).median, 0.8},
       {"inside two sigma, %", 100 * f.of(f.drover, &Errors::two_sigma).median, 95, true},
       {"moved beyond its bound, s", f.of(f.drover, &Errors::outside_s).most, 0}};
-  if (row.way != Way::rows || row.rows == 1) {
+  if (row.way != FieldWay::rows || row.rows == 1) {
     goals.push_back({"error at the outage's end, % of the way",
                      100 * f.of(f.drover, &Errors::of_the_way).median, 0.5});
   }

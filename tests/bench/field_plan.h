@@ -131,4 +131,17 @@ inline Path field_rows(int rows, double leg_m) {
   return path;
 }
 
+/// What estimates are judged on: rows of 20 m, 60 m straight on, or as much in a bend of 10 m.
+enum class FieldWay { rows, straight, curve };
+
+inline Path field_way(FieldWay way, int rows) {
+  if (way == FieldWay::rows) return field_rows(rows, 20);
+  if (way == FieldWay::straight) return field_rows(1, 60);
+  test::Pen pen;
+  pen.arc(10, 6);
+  Path path = test::record(pen.points());
+  path.name = "curve";
+  return path;
+}
+
 }  // namespace drover::bench

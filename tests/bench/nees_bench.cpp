@@ -15,31 +15,30 @@ namespace {
 constexpr double kOut_s = 20;  // when an outage begins
 constexpr double kEach_s = 0.5;
 
-enum class Way { rows, straight, curve };
-
 struct Drive {
   const char* name = "";
   const char* what = "";
-  Way way = Way::rows;
+  FieldWay way = FieldWay::rows;
   double outage_s = 0;
   bool drawn = false;       ///< mounting, tyres and lateness, from what the configuration believes
   bool calibrated = false;  ///< it is known how the antenna line is mounted
 };
 
 constexpr Drive kDrives[] = {
-    {"well", "nothing is wrong, two rows", Way::rows},
-    {"straight_10", "no receiver for 10 s, on a straight", Way::straight, 10},
-    {"straight_30", "30 s", Way::straight, 30},
-    {"straight_60", "60 s", Way::straight, 60},
-    {"curve_10", "no receiver for 10 s, on a curve of 10 m radius", Way::curve, 10},
-    {"curve_30", "30 s", Way::curve, 30},
-    {"curve_60", "60 s", Way::curve, 60},
-    {"known_30", "30 s on a straight, the mounting of the antenna line is known", Way::straight, 30,
-     false, true},
-    {"drawn_well", "two rows; mounting, tyres, lateness drawn as they are believed", Way::rows, 0,
+    {"well", "nothing is wrong, two rows", FieldWay::rows},
+    {"straight_10", "no receiver for 10 s, on a straight", FieldWay::straight, 10},
+    {"straight_30", "30 s", FieldWay::straight, 30},
+    {"straight_60", "60 s", FieldWay::straight, 60},
+    {"curve_10", "no receiver for 10 s, on a curve of 10 m radius", FieldWay::curve, 10},
+    {"curve_30", "30 s", FieldWay::curve, 30},
+    {"curve_60", "60 s", FieldWay::curve, 60},
+    {"known_30", "30 s on a straight, the mounting of the antenna line is known",
+     FieldWay::straight, 30, false, true},
+    {"drawn_well", "two rows; mounting, tyres, lateness drawn as they are believed", FieldWay::rows,
+     0, true},
+    {"drawn_straight", "the same, no receiver for 30 s, on a straight", FieldWay::straight, 30,
      true},
-    {"drawn_straight", "the same, no receiver for 30 s, on a straight", Way::straight, 30, true},
-    {"drawn_curve", "the same, on a curve", Way::curve, 30, true},
+    {"drawn_curve", "the same, on a curve", FieldWay::curve, 30, true},
 };
 
 double normal(std::mt19937_64& random) {
@@ -71,16 +70,6 @@ engine::EngineConfig config_of(const Drive& drive) {
   return config;
 }
 
-Path way_of(const Drive& drive) {
-  if (drive.way == Way::rows) return field_rows(2, 20);
-  if (drive.way == Way::straight) return field_rows(1, 60);
-  test::Pen pen;
-  pen.arc(10, 6);
-  Path path = test::record(pen.points());
-  path.name = "curve";
-  return path;
-}
-
 struct Driven {
   ErrorTable errors;
   double outside_s = 0;
@@ -90,7 +79,7 @@ struct Driven {
 Driven drive_all(const Drive& drive, bool gst, std::uint64_t first, int seeds) {
   Driven all;
   const engine::EngineConfig config = config_of(drive);
-  const Path path = way_of(drive);
+  const Path path = field_way(drive.way, 2);
   for (int i = 0; i < seeds; ++i) {
     const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
     FieldWorld world(config, plan_of(drive, config.estimate, gst, seed), seed);
