@@ -41,7 +41,7 @@ void OperatorClient::disconnect() {
 }
 
 void OperatorClient::turn(std::chrono::milliseconds time) {
-  (void)::mosquitto_loop(client_, static_cast<int>(time.count()), 1);
+  connected_ = ::mosquitto_loop(client_, static_cast<int>(time.count()), 1) == MOSQ_ERR_SUCCESS;
 }
 
 void OperatorClient::publish(const char* topic, std::string_view text, bool retained) {

@@ -27,6 +27,8 @@ class OperatorClient final {
   void disconnect();
   /// Reads and writes for so long; returns early when something came.
   void turn(std::chrono::milliseconds time);
+  /// When it last read.
+  bool connected() const { return connected_; }
   void publish(const char* topic, std::string_view text, bool retained = false);
 
   const std::vector<Heard>& heard() const { return heard_; }
@@ -38,6 +40,7 @@ class OperatorClient final {
  private:
   mosquitto* client_;
   bool subscribed_ = false;
+  bool connected_ = false;
   std::vector<Heard> heard_;
 };
 

@@ -23,10 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
-milliseconds deadline() {
-  return milliseconds(60'000) * deadline_factor();
-}
-
 /// In memory where there is such a place: a robot that logs to a busy disk stands still meanwhile.
 fs::path new_folder() {
   const fs::path memory("/dev/shm");
@@ -133,6 +129,12 @@ std::string filled(std::string text, std::string_view mark, const std::string& v
 
 }  // namespace
 
+milliseconds RobotRig::deadline() const {
+  const auto left = began_ + std::chrono::seconds(500) - std::chrono::steady_clock::now();
+  return std::clamp(std::chrono::duration_cast<milliseconds>(left), milliseconds(5000),
+                    milliseconds(60'000) * deadline_factor());
+}
+
 RobotRig::RobotRig() : folder_(new_folder()), port_(free_port()) {
   // A report ends the program with a status of its own, wherever it was found.
   ::setenv("ASAN_OPTIONS", "exitcode=99:detect_leaks=1:strict_string_checks=1", 0);
@@ -201,6 +203,7 @@ void RobotRig::tell_what_happened() const {
   }
   for (const auto& heard : client_.heard())
     if (heard.topic == "feedback") std::fprintf(stderr, "feedback %s\n", heard.text.c_str());
+  std::fprintf(stderr, "the client %s\n", client_.connected() ? "is connected" : "is cut off");
   std::fprintf(stderr, "last base_status: %s\n", client_.last("base_status").c_str());
 }
 

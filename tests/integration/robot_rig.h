@@ -105,10 +105,14 @@ class RobotRig : public testing::Test {
   std::string log(const char* name) const { return (folder_ / name).string(); }
   CommandResult run(const std::vector<std::string>& words);
   void write_files();
+  /// Of one thing a test waits for. All of them together end before ctest ends the test, after
+  /// 600 s (CMakeLists.txt): a test that was ended tells nothing of what it saw.
+  std::chrono::milliseconds deadline() const;
   /// False when there is one.
   bool expect_no_sanitizer_report(const Process& process) const;
   void tell_what_happened() const;
 
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::filesystem::path folder_;
   int port_ = 0;
   int commands_ = 0;

@@ -65,7 +65,7 @@ double RobotRig::start_until_accepted(const std::string& name, int id) {
     // The same start again within a second counts as one that was delivered twice.
     (void)wait_until([end = now_s() + 1.2] { return now_s() > end; });
     return false;
-  }));
+  })) << client_.last("feedback");
   return sent_s;
 }
 
