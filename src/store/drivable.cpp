@@ -19,9 +19,10 @@ std::string told_point(std::size_t index) {
 std::string metres(double value) {
   char text[32];
   std::snprintf(text, sizeof text,
-                value < 1000  ? "%.2f m"
-                : value < 1e6 ? "%.0f m"
-                              : "%.3g m",
+                value < 1      ? "%.3f m"
+                : value < 1000 ? "%.2f m"
+                : value < 1e6  ? "%.0f m"
+                               : "%.3g m",
                 value);
   return text;
 }

@@ -27,21 +27,28 @@ std::string RobotRig::track_ahead(const std::string& name, double length_m) cons
   const double y_m = status_number("pose", "y");
   const double latitude_deg = status_number("rtk", "latitude");
   const double longitude_deg = status_number("rtk", "longitude");
+  // The receiver's place is the antenna's: it and x, y fit together by where the robot faces.
+  const double angle_deg = status_number("rtk", "angle");
+  const double yaw_rad = status_number("pose", "yaw");
   json::JsonText text;
   text.open('{').key("cmd_type").text("trajectory_control").key("cmd").text("save_trajectory");
   text.key("data").open('{').key("name").text(name).key("data").open('[');
   for (double s_m = 0; s_m < length_m + 0.01; s_m += 0.5) {
-    text.open('{').key("angle").number(90).key("latitude").number(latitude_deg);
+    text.open('{').key("angle").number(angle_deg).key("latitude").number(latitude_deg);
     text.key("longitude")
         .number(longitude_deg +
                 s_m / kMetresPerDegree / std::cos(latitude_deg * std::acos(-1.0) / 180));
-    text.key("x").number(x_m + s_m).key("y").number(y_m).key("yaw").number(0).close('}');
+    text.key("x").number(x_m + s_m).key("y").number(y_m).key("yaw").number(yaw_rad).close('}');
   }
   text.close(']').close('}').close('}');
   return text.str();
 }
 
 void RobotRig::save_track(const std::string& name, double length_m) {
+  // What came while a command was run was told before it, maybe by a robot that was lost then: of
+  // such a message place and x, y fit no track.
+  (void)wait_until([end = now_s() + 0.3] { return now_s() > end; });
+  ASSERT_TRUE(wait_for_locate()) << client_.last("base_status");
   const auto before = client_.heard().size();
   control(track_ahead(name, length_m));
   ASSERT_TRUE(wait_for_feedback("save_trajectory_success", before));

@@ -74,8 +74,8 @@ TEST(Drivable, RefusesATrackThatWasRecordedUnderAnotherOriginThanItWasSavedUnder
   Track track = recorded(kNew);
   track.origin = kOld;
   EXPECT_EQ(refusal(track),
-            "point 1: x, y are 110.74 m away from its latitude and longitude, allowed 0.05 m: were "
-            "they recorded before the origin was set, or with the antenna elsewhere?");
+            "point 1: x, y are 110.74 m away from its latitude and longitude, allowed 0.050 m: "
+            "were they recorded before the origin was set, or with the antenna elsewhere?");
 }
 
 TEST(Drivable, TellsADistanceOfAnySizeInFewDigitsAndWithItsUnit) {
@@ -84,12 +84,17 @@ TEST(Drivable, TellsADistanceOfAnySizeInFewDigitsAndWithItsUnit) {
   EXPECT_THAT(refusal(track), HasSubstr("point 1: x, y are 1e+308 m away from"));
   track.points[0].x_m = 123456.7;
   EXPECT_THAT(refusal(track), HasSubstr("point 1: x, y are 123417 m away from"));
+  track = recorded();
+  track.points[6].x_m += 0.052;
+  EXPECT_THAT(refusal(track), HasSubstr("are 0.052 m away from its latitude and longitude, "
+                                        "allowed 0.050 m"))
+      << "not that 0.05 is more than 0.05";
 }
 
 TEST(Drivable, NamesTheFirstPointThatDoesNotFit) {
   Track track = recorded();
   track.points[6].x_m += 0.1;
-  EXPECT_THAT(refusal(track), HasSubstr("point 7: x, y are 0.10 m away"));
+  EXPECT_THAT(refusal(track), HasSubstr("point 7: x, y are 0.100 m away"));
   EXPECT_EQ(find_disagreement(track, kArm)->index, 6U);
   track.points[6].x_m -= 0.06;
   EXPECT_EQ(refusal(track), "") << "4 cm";
