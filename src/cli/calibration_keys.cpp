@@ -19,6 +19,10 @@ CalibrationKeys calibration_keys(const config::Loaded& loaded, bool own_stamps) 
   CalibrationKeys keys;
   keys.own_stamps = own_stamps;
   keys.twist_base = engine::takes_twist(loaded.config.engine.base.kind);
+  const auto& estimate = loaded.config.engine.estimate;
+  keys.antenna_sigma_m = estimate.antenna_sigma_m;
+  keys.heading_mount_sigma_deg = estimate.heading_mount_sigma_deg;
+  keys.gnss_late_sigma_s = estimate.gnss_late_sigma_s;
   for (const auto& device : loaded.config.devices) {
     if (device.kind != SlotKind::gnss || device.role != "steers") continue;
     keys.receiver = device.name;

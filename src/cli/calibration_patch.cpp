@@ -1,4 +1,5 @@
 // What of a calibration becomes a change of the configuration, and what only a person can change.
+#include <algorithm>
 #include <cmath>
 
 #include "cli/show_calibration.h"
@@ -13,8 +14,11 @@ using calibrate::Found;
 using calibrate::Quantity;
 using json::JsonText;
 
+bool is_told(const Found& found) {
+  return found.refused.empty();
+}
 bool is_off(const Found& found, double configured) {
-  return found.refused.empty() && std::abs(found.value - configured) > found.interval;
+  return is_told(found) && std::abs(found.value - configured) > found.interval;
 }
 bool is_off(const Found& found) {
   return found.has_configured && is_off(found, found.configured);
@@ -72,16 +76,57 @@ class Patch final {
   void estimate() {
     std::string members;
     antenna(members, false);
+    if (!it_.signs.wrong()) certainty(members);
     section("estimate", members);
+  }
+  /// How well it is known from now on. An interval is two sigma.
+  void certainty(std::string& members) const {
+    const Found& ahead = it_.of(Quantity::antenna_x_m);
+    const Found& left = it_.of(Quantity::antenna_y_m);
+    if (is_told(ahead) && is_told(left))
+      surer(members, "antenna_sigma_m", std::max(sigma(ahead), sigma(left)), keys_.antenna_sigma_m,
+            3);
+    const Found& line = it_.of(Quantity::heading_offset_deg);
+    if (is_told(line))
+      surer(members, "heading_mount_sigma_deg", sigma(line), keys_.heading_mount_sigma_deg, 2);
+    const Found& late = it_.of(Quantity::position_late_s);
+    if (keys_.own_stamps && keys_.latency_s && is_told(late))
+      surer(members, "gnss_late_sigma_s", lateness_sigma_s(late), keys_.gnss_late_sigma_s, 3);
+  }
+  /// Of a value with the patch applied: what it leaves as it is configured counts as an error.
+  static double sigma(const Found& found) {
+    const double left = is_off(found) ? 0 : found.value - found.configured;
+    return std::hypot(found.interval / 2, left);
+  }
+  /// Of positions and of headings, which share one key.
+  double lateness_sigma_s(const Found& late) const {
+    const bool patched = patches_latency();
+    const double place_s = std::hypot(late.interval / 2, patched ? 0 : late.value);
+    const Found& heading = it_.of(Quantity::heading_late_s);
+    if (!is_told(heading)) return place_s;
+    const double left_s = heading.value - (patched ? late.value : 0);
+    return std::max(place_s, std::hypot(heading.interval / 2, left_s));
+  }
+  static void surer(std::string& members, const char* key, double sigma, double configured,
+                    int decimals) {
+    const double unit = std::pow(10, -decimals);
+    const double rounded = std::ceil(sigma / unit - 1e-6) * unit;
+    if (rounded < configured - unit / 2) append(members, one(key, rounded, decimals));
   }
   void receiver() {
     std::string members;
     antenna(members, true);
-    const Found& late = it_.of(Quantity::position_late_s);
-    if (keys_.own_stamps && keys_.latency_s && is_off(late, 0) &&
-        *keys_.latency_s + late.value >= 0)
-      append(members, in("options", one("latency_s", *keys_.latency_s + late.value, 3)));
+    if (patches_latency()) {
+      const double late_s = *keys_.latency_s + it_.of(Quantity::position_late_s).value;
+      append(members, in("options", one("latency_s", late_s, 3)));
+    }
     if (!members.empty()) section("devices", in(keys_.receiver, members));
+  }
+
+  bool patches_latency() const {
+    const Found& late = it_.of(Quantity::position_late_s);
+    return keys_.own_stamps && keys_.latency_s && is_off(late, 0) &&
+           *keys_.latency_s + late.value >= 0;
   }
 
   const Calibration& it_;

@@ -21,12 +21,18 @@ struct CalibrationKeys {
   std::optional<double> latency_s;  ///< the receiver's option; nothing: it has none
   /// Stamps are those of droverd, so that a lateness is its latency_s that is wrong.
   bool own_stamps = false;
+  // One sigma of where the antenna is, how its line is mounted and how late it tells, as
+  // configured.
+  double antenna_sigma_m = 0;
+  double heading_mount_sigma_deg = 0;
+  double gnss_late_sigma_s = 0;
 };
 CalibrationKeys calibration_keys(const config::Loaded& loaded, bool own_stamps);
 /// As wheel_radius_m: with "way_scale" in its place for a base that tells a twist.
 const char* name_of(calibrate::Quantity what, bool twist_base);
 
-/// A merge patch (RFC 7396) of what is off by more than its interval; empty: nothing is.
+/// A merge patch (RFC 7396) of what is off by more than its interval, and of how well the antenna
+/// is known now where that is better than configured; empty: there is neither.
 std::string calibration_patch(const calibrate::Calibration& it, const CalibrationKeys& keys);
 /// What is the wrong way round, and what to do: a sentence each; none when the signs are right.
 std::vector<std::string> sign_notes(const calibrate::Signs& signs, bool twist_base);

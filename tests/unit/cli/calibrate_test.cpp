@@ -242,6 +242,66 @@ TEST(CalibrationPatch, DoesNotTouchTheLatencyForStampsOfOthers) {
   EXPECT_THAT(show_calibration(found(), others), HasSubstr("0.050 s older than their stamps"));
 }
 
+/// Of a robot with the tape's numbers, and a drive that showed all of them.
+CalibrationKeys unknown_keys() {
+  auto all = keys();
+  all.antenna_sigma_m = 0.06;
+  all.heading_mount_sigma_deg = 1.2;
+  all.gnss_late_sigma_s = 0.1;
+  return all;
+}
+Calibration all_found() {
+  Calibration it = found();
+  for (const auto& [what, interval] :
+       {std::pair{Quantity::antenna_x_m, 0.0501}, std::pair{Quantity::heading_offset_deg, 0.27},
+        std::pair{Quantity::position_late_s, 0.012}})
+    it.found[static_cast<std::size_t>(what)].interval = interval;
+  auto& left = it.found[static_cast<std::size_t>(Quantity::antenna_y_m)];
+  left.refused.clear();
+  left.has_configured = true;
+  // As late as positions: nothing remains once these are put right.
+  it.found[static_cast<std::size_t>(Quantity::heading_late_s)].value = 0.05;
+  return it;
+}
+
+TEST(CalibrationPatch, SaysHowWellWhatItFoundIsKnown) {
+  const auto patch = calibration_patch(all_found(), unknown_keys());
+  EXPECT_THAT(patch, HasSubstr(R"("estimate":{"antenna_x_m":0.4,"antenna_sigma_m":0.026,)"
+                               R"("heading_mount_sigma_deg":0.14,"gnss_late_sigma_s":0.006})"))
+      << "half of the wider interval, rounded up";
+}
+
+TEST(CalibrationPatch, CountsWhatItLeavesAsItIsConfigured) {
+  auto it = all_found();
+  auto& ahead = it.found[static_cast<std::size_t>(Quantity::antenna_x_m)];
+  ahead.configured = 0.36;  // 4 cm beside what was found, 5 cm are allowed
+  EXPECT_THAT(calibration_patch(it, unknown_keys()), HasSubstr(R"("antenna_sigma_m":0.048)"));
+  it.found[static_cast<std::size_t>(Quantity::heading_late_s)].value = 0.08;
+  EXPECT_THAT(calibration_patch(it, unknown_keys()), HasSubstr(R"("gnss_late_sigma_s":0.031)"))
+      << "headings are later than positions by 0.03 s, and no key says so";
+}
+
+TEST(CalibrationPatch, LeavesWhatIsKnownAsWellAlready) {
+  auto known = unknown_keys();
+  known.antenna_sigma_m = 0.026;
+  known.heading_mount_sigma_deg = 0;
+  known.gnss_late_sigma_s = 0.005;
+  EXPECT_THAT(calibration_patch(all_found(), known), Not(HasSubstr("sigma")));
+}
+
+TEST(CalibrationPatch, SaysNothingOfWhatWasNotSeenOrIsTheWrongWayRound) {
+  const auto partly = calibration_patch(found(), unknown_keys());
+  EXPECT_THAT(partly, Not(HasSubstr("antenna_sigma_m"))) << "only x was found";
+  EXPECT_THAT(partly, HasSubstr("heading_mount_sigma_deg"));
+  auto opposite = all_found();
+  opposite.signs.heading_opposite = true;
+  EXPECT_THAT(calibration_patch(opposite, unknown_keys()), Not(HasSubstr("sigma")));
+  auto others = unknown_keys();
+  others.own_stamps = false;
+  EXPECT_THAT(calibration_patch(all_found(), others), Not(HasSubstr("gnss_late_sigma_s")))
+      << "of a log that another program stamped";
+}
+
 TEST(CalibrationPatch, HasNoRadiusOfABaseThatTellsATwist) {
   auto twist = keys();
   twist.twist_base = true;
