@@ -75,20 +75,26 @@ void add_device_commands(CLI::App& app, const std::string& socket, int& code) {
     auto* sub = app.add_subcommand(std::string(texts.name), std::string(texts.what));
     sub->add_flag("--json", command->live.json, "JSON: one object, from a file one for each line");
     sub->add_flag("--watch", command->live.watch, "again and again");
-    sub->add_option("--file", command->file, std::string(texts.file) + "; - is standard input");
+    auto* file =
+        sub->add_option("--file", command->file, std::string(texts.file) + "; - is standard input");
+    // What droverd shows it has read by its own configuration.
+    const auto of_recording = [file](CLI::Option* option) { return option->needs(file); };
     if (texts.name != "gpio") {
-      sub->add_option("--driver", command->recording.driver, "of a recording")
+      of_recording(sub->add_option("--driver", command->recording.driver, "of a recording"))
           ->capture_default_str();
-      sub->add_option("--option", command->recording.options,
-                      "NAME=VALUE of a recording's driver, as in the configuration");
+      of_recording(sub->add_option("--option", command->recording.options,
+                                   "NAME=VALUE of a recording's driver, as in the configuration"));
     }
     if (texts.name == "bms")
-      sub->add_option("--map", command->recording.map,
-                      "file of a recording's registers: a path or one of the installed maps");
+      of_recording(
+          sub->add_option("--map", command->recording.map,
+                          "file of a recording's registers: a path or one of the installed maps"));
     if (texts.name == "can") {
-      sub->add_option("--node", command->recording.nodes, "node id of a drive, several if needed")
+      of_recording(sub->add_option("--node", command->recording.nodes,
+                                   "node id of a drive, several if needed"))
           ->transform(whole_number(0, INT32_MAX));
-      sub->add_option("--bus", command->recording.bus, "of a recording: only this one");
+      of_recording(
+          sub->add_option("--bus", command->recording.bus, "of a recording: only this one"));
     }
     sub->callback([command, view, &socket, &code] {
       command->live.socket = socket;

@@ -175,6 +175,9 @@ expect "a node is counted in tens" 0 out 'node 10 ' \
   can --file "$work/node10.log" --driver odrive --node 010
 expect "and is a number" 2 err '--node: "x" is no number' \
   can --file "$work/node10.log" --driver odrive --node x
+expect "what a recording is read with is of no use without one" 2 err '--file' \
+  gnss --option baud=9600
+expect "which would be passed over else" 2 err '--file' can --node 3
 expect "so are seconds" 2 err '--from: -1 is less than 0' calibrate --from -1
 expect "and a rate" 2 err '--rate: 0 is not between 0.01 and 200' estimate --rate 0
 expect "a report's number is not another one than was typed" 2 err \
