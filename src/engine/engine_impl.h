@@ -85,6 +85,7 @@ struct Engine::Impl {
   void tell_sender(Time now, Owner owner, const Stream& stream, Owner his);
   void tell_first_way(Owner owner);
   void fill_imu(const Estimate& located);
+  double reversal_m(const Estimate& located) const;
   void fill_lines(const LineTable& lines);
   void fill_snapshot(Time now, const Environment& environment, const LineTable& lines,
                      const Estimate& estimate, Owner owner);

@@ -99,6 +99,15 @@ void Engine::Impl::tell_first_way(Owner owner) {
     snapshot.joint_command.reason = why;
 }
 
+/// Where the antennas' cables are swapped the base lies as far behind its antenna as it is taken to
+/// lie ahead of it, or the other way round: until the first way has shown which way it goes.
+double Engine::Impl::reversal_m(const Estimate& located) const {
+  const bool told_by_receiver = std::isfinite(located.mounting_rad);
+  if (mechanics.proved() || !told_by_receiver) return 0;
+  const AntennaConfig antenna = antenna_of(config.estimate, sensors.receiver());
+  return 2 * std::hypot(antenna.x_m, antenna.y_m);
+}
+
 void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const LineTable& lines,
                                  const Estimate& located, Owner owner) {
   const HealthReport& report = health.report();
@@ -124,7 +133,7 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
                      snapshot.gnss.position.quality == FixQuality::rtk_fixed;
   // Nobody reckons beside a fix, though the estimator believes a new one only after a while.
   snapshot.nav.metres_left = fixed ? kAbsent : located.metres_left;
-  snapshot.nav.error_bound_m = located.error_bound_m;
+  snapshot.nav.error_bound_m = located.error_bound_m + reversal_m(located);
   snapshot.imu.configured = environment.imu_configured;
   snapshot.imu.health = environment.imu[sensors.imu()].state;
   snapshot.gnss.pose_heading_deg =

@@ -76,6 +76,17 @@ TEST_F(ARobotOnItsFirstWay, SaysWhyItIsSlowAndHowLongStill) {
   EXPECT_EQ(rig.why(), "");
 }
 
+/// Its antenna is 0.2 m ahead: of one that faces the other way the place is 0.4 m beside.
+TEST_F(ARobotOnItsFirstWay, HasRoomInItsBoundForAHeadingThatIsTheOtherWayRound) {
+  EXPECT_GT(rig.snapshot().nav.error_bound_m, 0.4);
+  while (rig.driven_m < 0.1) rig.tick();
+  EXPECT_GT(rig.snapshot().nav.error_bound_m, 0.4);
+  while (!rig.out.remembered.mechanics_proved && rig.driven_m < 1) rig.tick();
+  ASSERT_TRUE(rig.out.remembered.mechanics_proved);
+  rig.tick();
+  EXPECT_LT(rig.snapshot().nav.error_bound_m, 0.35);
+}
+
 TEST_F(ARobotOnItsFirstWay, TakesAPositionThatJumpsForNoWrongRatio) {
   while (rig.driven_m < 0.12) rig.tick();
   rig.aside_m = 0.15;
