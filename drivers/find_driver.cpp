@@ -9,8 +9,9 @@ namespace drover {
 namespace {
 
 /// Asked for, and nobody has written a driver: README.md tells how.
-constexpr std::array<std::string_view, 6> kSpokenByNone{"vesc",   "bunker", "tracer",
-                                                        "ranger", "moteus", "cybergear"};
+constexpr std::array<std::string_view, 13> kSpokenByNone{
+    "vesc",  "bunker", "tracer",   "ranger",  "moteus", "cybergear", "jbd",
+    "hesai", "livox",  "velodyne", "slamtec", "ouster", "rplidar"};
 
 /// As products are written in the entries: "ZED-F9P" is zedf9p.
 std::string plain(std::string_view name) {
@@ -20,6 +21,12 @@ std::string plain(std::string_view name) {
     if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) out += c;
   }
   return out;
+}
+
+/// A maker's two letters stand in many other words.
+bool names(std::string_view written, std::string_view known) {
+  constexpr std::size_t kShort = 2;
+  return known.size() <= kShort ? written == known : written.find(known) != std::string_view::npos;
 }
 
 }  // namespace
@@ -39,15 +46,14 @@ const DriverEntry* find_by_product(std::string_view product) {
   const std::string written = plain(product);
   for (const DriverEntry& entry : driver_registry())
     for (const std::string_view known : entry.products)
-      if (written.find(known) != std::string::npos) return &entry;
+      if (names(written, known)) return &entry;
   return nullptr;
 }
 
 bool is_spoken_by_none(std::string_view product) {
   const std::string written = plain(product);
-  return std::any_of(kSpokenByNone.begin(), kSpokenByNone.end(), [&](std::string_view known) {
-    return written.find(known) != std::string::npos;
-  });
+  return std::any_of(kSpokenByNone.begin(), kSpokenByNone.end(),
+                     [&](std::string_view known) { return names(written, known); });
 }
 
 }  // namespace drover

@@ -60,7 +60,7 @@ std::unique_ptr<CanTwin> make_twin(const Options& options) {
   return std::make_unique<DamiaoTwin>(settings, read_twin_settings(options, settings));
 }
 
-constexpr std::string_view kDamiaoProducts[] = {"dmj",    "dm4310", "dm4340",
+constexpr std::string_view kDamiaoProducts[] = {"dm",     "dmj",    "dm4310", "dm4340",
                                                 "dm6006", "dm8006", "dm8009"};
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace gpio_line {
 namespace {
 
 constexpr std::string_view kLevels[] = {"low", "high"};
+constexpr std::string_view kGpioLineProducts[] = {"estop", "emergencystop", "bumper"};
 
 const OptionSpec kOptions[] = {
     {.name = "active_level",
@@ -73,6 +74,7 @@ const DriverEntry kGpioLineEntry = {
     .twin_options = {},
     .make_twin = {},
     .summary = "digital input: emergency stop, bumper, zones of a safety scanner",
+    .products = gpio_line::kGpioLineProducts,
 };
 
 }  // namespace drover

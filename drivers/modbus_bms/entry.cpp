@@ -70,7 +70,7 @@ std::unique_ptr<RegisterTwin> make_twin(const Options& options, const RegisterMa
   return std::make_unique<ModbusBmsTwin>(options, map);
 }
 
-constexpr std::string_view kModbusBmsProducts[] = {"daly", "jkbms", "jkpb"};
+constexpr std::string_view kModbusBmsProducts[] = {"daly", "jk", "jkbms", "jkpb", "jikong"};
 
 }  // namespace
 

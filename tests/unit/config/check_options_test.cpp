@@ -11,6 +11,7 @@ namespace {
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 TEST(ConfigurationChecks, RefuseAChoiceThatDoesNotExist) {
@@ -107,7 +108,12 @@ TEST(ConfigurationChecks, SayWhichDriverSpeaksWithAProductOrThatNoneDoes) {
   for (const auto* const imu : {"hi12", "HI14", "ch104"})
     EXPECT_THAT(told(imu), HasSubstr("(\"hipnuc_can\" speaks with it")) << imu;
   EXPECT_THAT(told("wt901c"), HasSubstr("(\"witmotion\" speaks with it"));
-  for (const auto* const unknown : {"bunker", "VESC"})
+  EXPECT_THAT(told("JK"), HasSubstr("(\"modbus_bms\" speaks with it"));
+  EXPECT_THAT(told("dm"), HasSubstr("(\"damiao\" speaks with it"));
+  EXPECT_THAT(told("admiral"), Not(HasSubstr("speaks with"))) << "a maker's two letters in a word";
+  for (const auto* const contact : {"estop", "e-stop", "bumper"})
+    EXPECT_THAT(told(contact), HasSubstr("(\"gpio_line\" speaks with it")) << contact;
+  for (const auto* const unknown : {"bunker", "VESC", "JBD", "hesai"})
     EXPECT_THAT(told(unknown), HasSubstr("(no driver speaks with it)")) << unknown;
 }
 
