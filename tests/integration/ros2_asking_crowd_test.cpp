@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Of, BesideACrowdThatAsks,
                          testing::Values(Crowd{"NeverReads", 500, 1, false},
                                          Crowd{"Reads", 500, 1, true},
                                          Crowd{"Bursts", 32, 200, true}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& crowd) { return std::string(crowd.param.name); });
 
 }  // namespace
 }  // namespace drover::test
