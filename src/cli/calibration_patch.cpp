@@ -107,10 +107,10 @@ class Patch final {
     const double left_s = heading.value - (patched ? late.value : 0);
     return std::max(place_s, std::hypot(heading.interval / 2, left_s));
   }
-  static void surer(std::string& members, const char* key, double sigma, double configured,
+  static void surer(std::string& members, const char* key, double known, double configured,
                     int decimals) {
     const double unit = std::pow(10, -decimals);
-    const double rounded = std::ceil(sigma / unit - 1e-6) * unit;
+    const double rounded = std::ceil(known / unit - 1e-6) * unit;
     if (rounded < configured - unit / 2) append(members, one(key, rounded, decimals));
   }
   void receiver() {
