@@ -13,9 +13,6 @@ namespace drover::engine {
 namespace {
 
 constexpr Duration kLongestCycle = std::chrono::milliseconds(50);
-constexpr const char* kMountingUnknown =
-    "how the antenna line is mounted is not known before it was driven there and back: until then "
-    "a slow drift of the position is noticed after 0.2 m or not at all";
 
 }  // namespace
 
@@ -202,8 +199,7 @@ void Engine::Impl::start_task(const Command& command, const StartTask& task, Tim
   if (!navigator.starting()) return;
   owners.on_task_started();
   mechanics.begin_anew();
-  const bool learns = std::isfinite(estimate.mounting_sigma_rad) && !estimate.mounting_known;
-  if (learns) events.notice(now, Notice::Level::info, kMountingUnknown);
+  learned_notices.tell_unknown(now, estimate, events);
 }
 
 void Engine::Impl::engage_stop(const RequestId& id, Time now) {

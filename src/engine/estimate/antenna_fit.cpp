@@ -36,6 +36,7 @@ constexpr std::size_t kMustAgree = 3;
 constexpr double kArmKnown_m = 0.03;
 constexpr double kArmWrong_m = 0.05;
 constexpr double kCertain = 4.0;  // sigmas
+constexpr double kLikely = 2.0;
 constexpr double kRolled_m = 0.02;
 
 }  // namespace
@@ -211,6 +212,10 @@ double AntennaFit::arm_sigma_m() const {
 double AntennaFit::arm_doubt_m(double sigmas, const EstimateConfig& config) const {
   const double seen_m = std::hypot(ahead_m(), left_m()) + sigmas * arm_sigma_m();
   return std::min(sigmas * config.antenna_sigma_m, seen_m);
+}
+
+bool AntennaFit::arm_right(const EstimateConfig& config) const {
+  return arm_doubt_m(kLikely, config) <= kArmWrong_m;
 }
 
 bool AntennaFit::arm_wrong() const {

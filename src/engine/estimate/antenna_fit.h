@@ -64,6 +64,8 @@ class AntennaFit final {
   double arm_doubt_m(double sigmas, const EstimateConfig& config) const;
   /// It is, by more than can be chance.
   bool arm_wrong() const;
+  /// Within what would be told as wrong it is where it is configured.
+  bool arm_right(const EstimateConfig& config) const;
 
  private:
   enum : std::size_t { kAhead, kLeft, kLate, kShare, kCrab, kNumbers };

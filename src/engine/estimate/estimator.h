@@ -74,6 +74,9 @@ struct Estimate {
   /// configured, m; absent until that is certain. Not made up for: predicted_error_m has it.
   double arm_ahead_m = kAbsent;
   double arm_left_m = kAbsent;
+  /// Nothing tells yet that it is nearer than this to where it is configured, m; absent: turns or a
+  /// calibration do, or it is told to be wrong.
+  double arm_unknown_m = kAbsent;
   /// True speed over the told one, when that is certainly another; absent: about the same.
   double wheel_scale = kAbsent;
   /// The last shove that is over, as an inertial sensor felt it: to the left; kNever: none.

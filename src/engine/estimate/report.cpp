@@ -111,6 +111,8 @@ void Estimator::report_learned(const State& state) {
   const bool arm_wrong = state.fit.arm_wrong() && std::isfinite(e.roll_rad);
   e.arm_ahead_m = arm_wrong ? state.fit.ahead_m() : kAbsent;
   e.arm_left_m = arm_wrong ? state.fit.left_m() : kAbsent;
+  const bool arm_unknown = !arm_wrong && !state.fit.arm_right(config_);
+  e.arm_unknown_m = arm_unknown ? state.fit.arm_doubt_m(2, config_) : kAbsent;
   const double scale = state.belief.mean[kScale];
   const double scale_sigma = std::sqrt(state.belief.covariance[kScale][kScale]);
   const bool other_wheels =

@@ -13,6 +13,9 @@ constexpr double kScaleStep = 0.02;
 constexpr double kDelayStep_s = 0.08;
 constexpr double kArmStep_m = 0.1;
 constexpr double kShoved_m = 0.05;  // less is a bump
+constexpr const char* kMountingUnknown =
+    "how the antenna line is mounted is not known before it was driven there and back: until then "
+    "a slow drift of the position is noticed after 0.2 m or not at all";
 // What is measured late tells the same shove at almost the same time.
 constexpr Duration kSameShove = std::chrono::seconds(1);
 
@@ -40,6 +43,18 @@ void LearnedNotices::tell(Time now, const Estimate& estimate, const AntennaConfi
   text.format("the wheels roll %.1f %% %s than wheel_radius_m says; it is made up for",
               100 * std::abs(estimate.wheel_scale - 1), estimate.wheel_scale < 1 ? "less" : "more");
   events.notice(now, Notice::Level::warning, text);
+}
+
+void LearnedNotices::tell_unknown(Time now, const Estimate& estimate, EventQueue& events) {
+  if (std::isfinite(estimate.mounting_sigma_rad) && !estimate.mounting_known)
+    events.notice(now, Notice::Level::info, kMountingUnknown);
+  if (!std::isfinite(estimate.arm_unknown_m)) return;
+  Reason text;
+  text.format(
+      "where the antenna is is not known before the robot has turned: until then it may go %.2f m "
+      "beside its track",
+      estimate.arm_unknown_m);
+  events.notice(now, Notice::Level::info, text);
 }
 
 void LearnedNotices::tell_mounting(Time now, const Estimate& estimate, const AntennaConfig& antenna,

@@ -13,6 +13,8 @@ class LearnedNotices final {
  public:
   /// `antenna`: of the receiver that steers.
   void tell(Time now, const Estimate& estimate, const AntennaConfig& antenna, EventQueue& events);
+  /// What a task begins without, each time.
+  static void tell_unknown(Time now, const Estimate& estimate, EventQueue& events);
 
  private:
   /// What was said of one of them; NaN: nothing.

@@ -5,6 +5,7 @@ namespace drover::engine {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class ALook : public AnEngine {
  protected:
@@ -15,10 +16,19 @@ class ALook : public AnEngine {
     rig.start(path, 120, 0.5);
     rig.run_s(4);
   }
-  std::string notices() const {
+  static std::string notices_of(const EngineRig& of) {
     std::string all;
-    for (const Notice& notice : rig.said<Notice>()) all += std::string(notice.text.view()) + '\n';
+    for (const Notice& notice : of.said<Notice>()) all += std::string(notice.text.view()) + '\n';
     return all;
+  }
+  std::string notices() const { return notices_of(rig); }
+  std::string notices_at_the_start_of(const EngineConfig& config) {
+    EngineRig other(config);
+    other.settle();
+    other.start(path, 40, 0.5);
+    other.run_s(4);
+    EXPECT_EQ(other.said<NavigationStarted>().size(), 1U);
+    return notices_of(other);
   }
   bool looks() const { return rig.why().find("stands and looks") != std::string::npos; }
   /// Until it does, with the position going aside by so much each second.
@@ -99,16 +109,22 @@ TEST_F(ALook, IsAnnouncedAtAStartAsLongAsTheMountingIsNotKnown) {
   EXPECT_THAT(notices(), HasSubstr("how the antenna line is mounted is not known"));
 }
 
-TEST_F(ALook, IsNotAnnouncedWhenTheMountingWasCalibrated) {
+TEST_F(ALook, SaysAtAStartThatItIsNotKnownWhereTheAntennaIsUntilItHasTurned) {
+  begin();
+  EXPECT_THAT(notices(), HasSubstr("where the antenna is is not known before the robot has turned: "
+                                   "until then it may go 0.12 m beside its track"));
+}
+
+TEST_F(ALook, SaysNothingOfAnAntennaLineThatWasCalibrated) {
   EngineConfig config = rig_config();
   config.estimate.heading_mount_sigma_deg = 0;
-  EngineRig calibrated(config);
-  calibrated.settle();
-  calibrated.start(path, 40, 0.5);
-  calibrated.run_s(4);
-  ASSERT_EQ(calibrated.said<NavigationStarted>().size(), 1U);
-  for (const Notice& notice : calibrated.said<Notice>())
-    EXPECT_THAT(std::string(notice.text.view()), ::testing::Not(HasSubstr("is mounted")));
+  EXPECT_THAT(notices_at_the_start_of(config), Not(HasSubstr("is mounted")));
+}
+
+TEST_F(ALook, SaysNothingOfAnAntennaThatWasMeasured) {
+  EngineConfig config = rig_config();
+  config.estimate.antenna_sigma_m = 0.01;
+  EXPECT_THAT(notices_at_the_start_of(config), Not(HasSubstr("where the antenna is")));
 }
 
 }  // namespace

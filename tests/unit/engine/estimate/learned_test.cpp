@@ -262,6 +262,20 @@ TEST_F(LearnedBefore, AnArmIsInTheBoundFromTheFirstMetreOn) {
   EXPECT_GE(rig.last.predicted_error_m, 0.19);
 }
 
+TEST_F(LearnedBefore, AnArmThatFitsIsKnownFromTheStartOn) {
+  Rig fresh(6);
+  settle(fresh);
+  EXPECT_NEAR(fresh.last.arm_unknown_m, 2 * EstimateConfig().antenna_sigma_m, 1e-9);
+
+  LearnedValues learned;
+  learned.antenna_ahead_m = {0.005, 0.01};
+  learned.antenna_left_m = {-0.003, 0.01};
+  Rig rig(6);
+  rig.estimator.recall(learned);
+  settle(rig);
+  EXPECT_FALSE(std::isfinite(rig.last.arm_unknown_m));
+}
+
 TEST_F(LearnedBefore, IsHandedOnAsItWasTaken) {
   const LearnedValues learned = taught(3);
   Rig rig(7);
