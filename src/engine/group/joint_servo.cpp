@@ -194,7 +194,10 @@ void JointServo::run(const Input& input) {
     shaper_.take_over(measured);
     arrival_.begin();
   }
-  if (!engaged_) trust_.begin();
+  if (!engaged_) {
+    trust_.begin();
+    pressed_ = false;
+  }
   found_ = !engaged_ && !follows_;
   engaged_ = true;
   watch_joint(measured, dt_s);
@@ -227,6 +230,7 @@ void JointServo::arm(const Input& input) {
   if (follows_ && arming_since_ != kNever && input.now - arming_since_ > input.start_timeout)
     fail(input, "its drive does not come into closed loop");
   if (!follows_ && !taken_over) {
+    arming_since_ = kNever;
     state_ = GroupState::idle;
     return;
   }

@@ -46,9 +46,16 @@ void JointShaper::take_over(const JointMeasured& measured) {
   velocity_radps_ = 0;
   stiffness_ = effort_Nm_ = 0;
   damping_ = rules_.damping_Nmsprad;
+  stiffest_ = most_damped_ = 0;
   holds_ = false;
   limited_ = 0;
   tell(0, measured);
+}
+
+/// Of its fastest speed: what nothing draws along yet would have to catch up, faster than it may
+/// be.
+double JointShaper::drawn(double stiffness) const {
+  return stiffness > stiffness_ ? stiffness_ / stiffness : 1.0;
 }
 
 /// The share of the time of rising that a cycle is.
@@ -60,10 +67,12 @@ double JointShaper::risen(double dt_s) const {
 /// fall otherwise.
 void JointShaper::approach_gains(double stiffness, double damping, double effort, double dt_s) {
   const double share = risen(dt_s);
-  const double stiffest = std::max({stiffness, stiffness_, rules_.stiffness_Nmprad});
-  const double most_damped = std::max({damping, damping_, rules_.damping_Nmsprad});
-  stiffness_ = approach(stiffness_, stiffness, share * stiffest);
-  damping_ = approach(damping_, damping, share * most_damped);
+  stiffest_ = std::max({stiffest_, stiffness, stiffness_, rules_.stiffness_Nmprad});
+  most_damped_ = std::max({most_damped_, damping, damping_, rules_.damping_Nmsprad});
+  stiffness_ = approach(stiffness_, stiffness, share * stiffest_);
+  damping_ = approach(damping_, damping, share * most_damped_);
+  if (stiffness_ == stiffness) stiffest_ = 0;
+  if (damping_ == damping) most_damped_ = 0;
   effort_Nm_ = approach(effort_Nm_, effort, share * rules_.max_effort_Nm);
 }
 
@@ -118,15 +127,14 @@ void JointShaper::follow_position(const JointTarget& target, double stiffness, d
       within(JointValue::effort, target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
   const double stiffness_before = stiffness_;
   approach_gains(stiffness, damping, effort, dt_s);
-  if (stiffness == 0 && stiffness_ == 0) {
-    // The position has no weight: whoever gives it one again begins where the joint is.
+  if (stiffness == 0) {
+    // The position has no weight, also while the stiffness that was there goes down: whoever gives
+    // it one again begins where the joint is.
     approach_velocity(wanted_radps, dt_s);
-    position_rad_ = measured.position_rad;
+    if (stiffness_ == 0) position_rad_ = measured.position_rad;
   } else {
     keep_torque(stiffness_before, measured);
-    // What nothing draws along yet would have to catch up, faster than it may be.
-    const double share = stiffness > stiffness_ ? stiffness_ / stiffness : 1.0;
-    approach_position(wanted_rad, wanted_radps, share * rules_.max_velocity_radps, dt_s);
+    approach_position(wanted_rad, wanted_radps, drawn(stiffness) * rules_.max_velocity_radps, dt_s);
   }
   tell(velocity_radps_, measured);
 }
@@ -140,8 +148,11 @@ void JointShaper::follow_velocity(const JointTarget& target, const JointMeasured
       std::max(wanted > 0 ? end_rad - position_rad_ : position_rad_ - end_rad, 0.0);
   const double stops_from = std::sqrt(2 * kBrakesWith * rules_.max_acceleration_radps2 * left_rad);
   wanted = within(JointValue::position, wanted, -stops_from, stops_from);
+  const double stiffness_before = stiffness_;
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, 0, dt_s);
-  approach_velocity(wanted, dt_s);
+  keep_torque(stiffness_before, measured);
+  const double fastest_radps = drawn(rules_.stiffness_Nmprad) * rules_.max_velocity_radps;
+  approach_velocity(std::clamp(wanted, -fastest_radps, fastest_radps), dt_s);
   // What is blocked is not pushed harder for ever.
   position_rad_ = nearer(position_rad_, speeds_up_Nm(velocity_radps_, measured), measured);
   tell(velocity_radps_, measured);
@@ -205,15 +216,21 @@ double JointShaper::kept(double effort_Nm, const JointMeasured& measured) const 
   return effort_Nm;
 }
 
+/// In a movement it is not torn to a stop. What sinks without stiffness is only damped already.
+double JointShaper::begins_to_hold_radps(const JointMeasured& measured) const {
+  const double told_radps = told_velocity_radps_;
+  const double goes_radps = measured.velocity_radps;
+  if (stiffness_ <= 0)
+    return std::clamp(goes_radps, std::min(told_radps, 0.0), std::max(told_radps, 0.0));
+  if (std::abs(goes_radps) <= kMoves_radps) return 0;
+  return std::clamp(goes_radps, -rules_.max_velocity_radps, rules_.max_velocity_radps);
+}
+
 void JointShaper::hold(const JointMeasured& measured, double dt_s, bool keeps_weight) {
   limited_ = 0;
   if (!holds_) {
     holds_ = true;
-    // In a movement it is not torn to a stop. What sinks without stiffness only damps already.
-    const bool moves = stiffness_ > 0 && std::abs(measured.velocity_radps) > kMoves_radps;
-    velocity_radps_ = moves ? std::clamp(measured.velocity_radps, -rules_.max_velocity_radps,
-                                         rules_.max_velocity_radps)
-                            : 0;
+    velocity_radps_ = begins_to_hold_radps(measured);
     // All that the drive gives now; of what sinks slowly the damping is its weight.
     const double damps = damping_ * (told_velocity_radps_ - measured.velocity_radps);
     const double gives =
@@ -242,7 +259,7 @@ void JointShaper::damp(const JointMeasured& measured, double dt_s) {
   approach_gains(0, rules_.damping_Nmsprad, 0, dt_s);
   approach_velocity(0, dt_s);
   if (stiffness_ <= 0) position_rad_ = measured.position_rad;
-  tell(0, measured);
+  tell(velocity_radps_, measured);
 }
 
 }  // namespace drover::engine

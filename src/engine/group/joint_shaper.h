@@ -62,6 +62,7 @@ class JointShaper final {
   double within(JointValue what, double value, double low, double high);
   double speeds_up_Nm(double velocity_radps, const JointMeasured& measured) const;
   double nearer(double position_rad, double besides_Nm, const JointMeasured& measured);
+  double drawn(double stiffness) const;
   double risen(double dt_s) const;
   void keep_torque(double stiffness_before, const JointMeasured& measured);
   void approach_gains(double stiffness, double damping, double effort, double dt_s);
@@ -72,6 +73,7 @@ class JointShaper final {
   void follow_velocity(const JointTarget& target, const JointMeasured& measured, double dt_s);
   void follow_effort(const JointTarget& target, const JointMeasured& measured, double dt_s);
   double kept(double effort_Nm, const JointMeasured& measured) const;
+  double begins_to_hold_radps(const JointMeasured& measured) const;
   void tell(double velocity_radps, const JointMeasured& measured);
 
   JointRules rules_;
@@ -79,6 +81,9 @@ class JointShaper final {
   double velocity_radps_ = 0;
   double stiffness_ = 0;
   double damping_ = 0;
+  // The largest of each since it was last what it is to be: goes up and down by a share of that.
+  double stiffest_ = 0;
+  double most_damped_ = 0;
   double effort_Nm_ = 0;
   bool holds_ = false;
   double carried_Nm_ = 0;  ///< while it holds

@@ -46,10 +46,18 @@ Reason JointTrust::look(const JointMeasured& measured, double since_s, const Imp
   if (why.empty()) why = look_at_motion(measured, since_s);
   if (!why.empty()) return why;
   if (since_s <= kHeldUp_s) return look_at_encoder(measured, gives_Nm, dt_s);
-  // What it was told meanwhile it never gave.
-  stands_rad_ = kAbsent;
-  stands_s_ = 0;
+  forget_stand();  // what it was told meanwhile it never gave
   return {};
+}
+
+void JointTrust::look_away() {
+  moved_radps_ = kAbsent;
+  forget_stand();
+}
+
+void JointTrust::forget_stand() {
+  stands_rad_ = kAbsent;
+  stands_s_ = still_s_ = 0;
 }
 
 /// A drive tells the end of its range of all that lies beyond it, too, and keeps its own law about

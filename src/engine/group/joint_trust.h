@@ -23,7 +23,7 @@ class JointTrust final {
   Reason look(const JointMeasured& measured, double since_s, const Impedance& told,
               double velocity_radps, double dt_s);
   /// Somebody else has it, or it is not believed anyhow.
-  void look_away() { moved_radps_ = kAbsent; }
+  void look_away();
   /// After that, told to damp: it gets faster the way it went.
   bool runs_on(const JointMeasured& measured) const;
 
@@ -34,6 +34,7 @@ class JointTrust final {
   Reason look_at_encoder(const JointMeasured& measured, double gives_Nm, double dt_s);
   Reason look_at_range(const JointMeasured& measured) const;
   bool stands(const JointMeasured& measured) const;
+  void forget_stand();
   Reason look_at_motion(const JointMeasured& measured, double since_s);
 
   JointRules rules_;

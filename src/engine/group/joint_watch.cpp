@@ -8,6 +8,7 @@ namespace drover::engine {
 namespace {
 
 constexpr double kFar = 2;            // times its fastest speed
+constexpr double kEnd = 0.999;        // of what its drive can tell: it may be any more
 constexpr double kAhead_radps = 0.5;  // of its set point
 constexpr double kMargin_rad = 0.05;
 constexpr double kGoes_radps = 0.05;
@@ -34,7 +35,9 @@ Reason JointWatch::look(const JointMeasured& measured, const Impedance& told, do
   const double draws_Nm = way * told.stiffness_Nmprad * (told.position_rad - measured.position_rad);
   const double least_Nm = kDrives * rules_.max_effort_Nm;
   const double gives_Nm = pushes_Nm + draws_Nm;
-  const bool fast = gives_Nm > least_Nm && speed_radps > kFar * rules_.max_velocity_radps &&
+  const double too_fast_radps =
+      std::min(kFar * rules_.max_velocity_radps, kEnd * rules_.drive.velocity_radps);
+  const bool fast = gives_Nm > least_Nm && speed_radps > too_fast_radps &&
                     speed_radps - way * velocity_radps > kAhead_radps;
   const double end_rad = way > 0 ? rules_.max_rad : rules_.min_rad;
   const bool beyond = gives_Nm > 0 && speed_radps > kGoes_radps &&

@@ -263,14 +263,16 @@ TEST_F(LearnedBefore, AnArmIsInTheBoundFromTheFirstMetreOn) {
 }
 
 TEST_F(LearnedBefore, AnArmThatFitsIsKnownFromTheStartOn) {
-  Rig fresh(6);
+  EngineConfig config = rig_config();
+  config.estimate.antenna_sigma_m = 0.06;
+  Rig fresh(6, config);
   settle(fresh);
-  EXPECT_NEAR(fresh.last.arm_unknown_m, 2 * EstimateConfig().antenna_sigma_m, 1e-9);
+  EXPECT_NEAR(fresh.last.arm_unknown_m, 0.12, 1e-9);
 
   LearnedValues learned;
   learned.antenna_ahead_m = {0.005, 0.01};
   learned.antenna_left_m = {-0.003, 0.01};
-  Rig rig(6);
+  Rig rig(6, config);
   rig.estimator.recall(learned);
   settle(rig);
   EXPECT_FALSE(std::isfinite(rig.last.arm_unknown_m));
