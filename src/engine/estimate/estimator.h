@@ -19,6 +19,10 @@
 
 namespace drover::engine {
 
+namespace estimate {
+struct Contradictions;
+}
+
 struct Estimate {
   bool has_position = false;
   bool has_heading = false;
@@ -180,13 +184,23 @@ class Estimator final {
   void hand_over_gyro(estimate::State& state, const estimate::TurnRate& turn) const;
   estimate::State blank() const;
   estimate::State carried_over(const estimate::State& old, const GeodeticPoint& origin) const;
-  // What a state means, in report.cpp:
+  // What a state means, in report.cpp; the motion first, and then in any order:
+  // each tells what no other does.
   void report(const estimate::State& state, Time now);
-  void report_learned(const estimate::State& state);
-  void report_kept(const estimate::State& state);  // in learned.cpp
-  void report_trouble(const estimate::State& state, Time now);
-  void report_unseen(const estimate::State& state, double sure_m);
+  void report_motion(const estimate::State& state, Time now);
+  void report_unseen(const estimate::State& state);
   void report_imu(const estimate::State& state, Time now);
+  void report_learned(const estimate::State& state, Time now);
+  void report_kept(const estimate::State& state);  // in learned.cpp
+  // in report_errors.cpp:
+  void report_errors(const estimate::State& state, const estimate::Contradictions& between,
+                     Time now);
+  void report_yaw_error(const estimate::State& state);
+  // in report_trouble.cpp:
+  void report_trouble(const estimate::State& state, const estimate::Contradictions& between,
+                      Time now);
+  const char* missing(const estimate::State& state, Time now) const;
+  bool arm_wrong(const estimate::State& state, Time now) const;
   double reach_m(const estimate::State& state, Time now) const;
 
   EstimateConfig config_;

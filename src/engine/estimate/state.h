@@ -16,6 +16,7 @@
 #include "engine/estimate/jump_watch.h"
 #include "engine/estimate/motion_watch.h"
 #include "engine/estimate/mounting.h"
+#include "engine/estimate/reach.h"
 #include "engine/estimate/shove.h"
 #include "engine/estimate/unseen_way.h"
 
@@ -115,6 +116,10 @@ struct State {
   /// What was learned of it and is not made up for yet.
   double mount_left_rad() const {
     return heading.last == kNever ? 0.0 : mounting.mean[0] - mounting.applied_rad;
+  }
+  /// What both and the belief make the heading, and the way since the last fix, uncertain by.
+  HeadingDoubt doubt(const EstimateConfig& config) const {
+    return {mount_sigma_rad(config), reckoned.east_m, reckoned.north_m};
   }
   std::uint32_t refused = 0;  ///< by the gates, since the start
   std::uint32_t broken = 0;   ///< times the filter lost its numbers and was started again
