@@ -147,13 +147,25 @@ void JointServo::ask_trust(const Input& input, const JointMeasured& measured, do
   if (follows_) told_trust_ = Trust::whole;
   if (told_trust_ == Trust::damps && trust_.runs_on(measured)) told_trust_ = Trust::let_go;
   if (told_trust_ != Trust::whole || input.blocked) return trust_.look_away();
+  if (!leap_.why().empty()) return distrust(leap_.why());
   const Reason why =
       trust_.look(measured, since_s, shaper_.impedance(), shaper_.velocity_radps(), dt_s);
-  if (why.empty()) return;
+  if (!why.empty()) distrust(why);
+}
+
+void JointServo::distrust(const Reason& why) {
   end(why);
   reason_ = why;
   failed_ = by_itself_ = true;
   told_trust_ = Trust::damps;
+}
+
+/// A drive that is just found, or was somebody else's, is where it says.
+JointMeasured JointServo::measured(const Input& input) {
+  const JointMeasured told = measured_by(input.axis);
+  const bool known = engaged_ && !input.blocked && std::isfinite(input.axis.motion.velocity_radps);
+  if (!known) leap_.begin();
+  return leap_.look(told, input.axis.last_motion);
 }
 
 /// Of what was told last. Who presses for long, and comes no nearer, is ended; what is held, or too
@@ -186,7 +198,7 @@ void JointServo::do_without(const JointMeasured& measured) {
 
 /// Its drive runs, and tells where the joint is.
 void JointServo::run(const Input& input) {
-  const JointMeasured measured = measured_by(input.axis);
+  const JointMeasured measured = this->measured(input);
   const double dt_s = std::max(to_s(input.dt), 0.0);
   arming_since_ = kNever;
   // What is held elsewhere goes on from where it is given back.

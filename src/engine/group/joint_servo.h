@@ -3,6 +3,7 @@
 
 #include "drover/snapshot.h"
 #include "engine/group/joint_arrival.h"
+#include "engine/group/joint_leap.h"
 #include "engine/group/joint_shaper.h"
 #include "engine/group/joint_trust.h"
 #include "engine/group/joint_watch.h"
@@ -97,6 +98,8 @@ class JointServo final {
   void rest(const JointMeasured& measured, double dt_s);
   void arm(const Input& input);
   void fail(const Input& input, const char* otherwise);
+  JointMeasured measured(const Input& input);
+  void distrust(const Reason& why);
   void watch_joint(const JointMeasured& measured, double dt_s);
   void ask_trust(const Input& input, const JointMeasured& measured, double dt_s);
   void ask_arrival(const JointMeasured& measured, double dt_s);
@@ -106,6 +109,7 @@ class JointServo final {
   JointShaper shaper_;
   JointWatch watch_;
   JointTrust trust_;
+  JointLeap leap_;
   JointArrival arrival_;
   bool pressed_ = false;    ///< it was ended by that: its effort was no weight's
   bool strained_ = false;   ///< this cycle

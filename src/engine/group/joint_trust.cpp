@@ -22,7 +22,7 @@ constexpr double kRunsOn_radps = 0.5;
 // What was so fast a moment ago does not stand so still so soon, whatever it ran into:
 constexpr double kTurned_radps = 0.3;
 constexpr double kBrakes_s = 0.02;  ///< or what its acceleration makes in this, where that is more
-constexpr double kStill_s = 0.014;
+constexpr double kStoodStill_s = 0.014;
 constexpr double kSoon_s = 0.03;
 constexpr double kLastStep = 1e-5;  ///< of a range: less than its drive can tell
 constexpr double kApart_rad = 0.02;
@@ -116,13 +116,16 @@ Reason JointTrust::look_at_sign(const JointMeasured& measured, double wanted_Nm,
 Reason JointTrust::look_at_motion(const JointMeasured& measured, double since_s) {
   const double least_radps = std::max(kTurned_radps, kBrakes_s * rules_.max_acceleration_radps2);
   moved_s_ += since_s;
-  if (std::abs(measured.velocity_radps) > least_radps) {
+  const bool fast = std::abs(measured.velocity_radps) > least_radps;
+  // Told once it may be a frame that lies.
+  if (fast && fast_) {
     moved_radps_ = measured.velocity_radps;
     moved_s_ = 0;
   }
+  fast_ = fast;
   still_s_ = stands(measured) ? still_s_ + since_s : 0;
   Reason why;
-  if (std::isfinite(moved_radps_) && moved_s_ < kSoon_s && still_s_ > kStill_s)
+  if (std::isfinite(moved_radps_) && moved_s_ < kSoon_s && still_s_ > kStoodStill_s)
     why.format(
         "it turned by %.1f rad/s, and stood to the bit at once: its encoder stands still, or it "
         "is blocked",

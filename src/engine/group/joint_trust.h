@@ -46,6 +46,7 @@ class JointTrust final {
   double least_Nm_ = 0;          ///< told since
   double most_Nm_ = 0;
   double stands_s_ = 0;           ///< though what was told changed by much
+  bool fast_ = false;             ///< in the measurement before
   double moved_radps_ = kAbsent;  ///< when it was fast last
   double moved_s_ = 0;            ///< so long ago
   double still_s_ = 0;            ///< to the bit

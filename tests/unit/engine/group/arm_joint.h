@@ -20,8 +20,10 @@ struct ArmJoint {
   bool wrong_way = false;   ///< its drive's torque
   bool stands = false;      ///< its encoder: its drive measures no motion any more
   double least_rad = -1e9;  ///< that it can tell
-  bool rests = false;       ///< nothing of it moves, whatever its drive does
-  double stop_rad = 10;     ///< an end that gives way a little
+  double lies_rad = 0;      ///< what it tells beside that, though it goes by what is so
+  double lies_radps = 0;
+  bool rests = false;    ///< nothing of it moves, whatever its drive does
+  double stop_rad = 10;  ///< an end that gives way a little
 
   double position_rad = 0;
   double velocity_radps = 0;
@@ -38,11 +40,11 @@ struct ArmJoint {
   /// As its drive measures.
   double told_rad() {
     if (!stands) stood_rad = std::max(position_rad, least_rad);
-    return stood_rad;
+    return stood_rad + lies_rad;
   }
   /// As its own law has it.
   double is_rad() { return stands ? stood_rad : position_rad; }
-  double told_radps() const { return stands ? 0 : velocity_radps; }
+  double told_radps() const { return (stands ? 0 : velocity_radps) + lies_radps; }
 
   void obey(const AxisCommand& command) {
     const bool armed = command.request == AxisRequest::run || command.request == AxisRequest::hold;

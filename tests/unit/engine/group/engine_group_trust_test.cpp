@@ -269,5 +269,59 @@ TEST_F(EngineGroupTrust, BelievesAWeightThatSinks) {
   EXPECT_EQ(told().state, GroupState::following) << reason();
 }
 
+/// A frame that lies, as a line's noise makes one in some days: no step of torque, no fault.
+TEST_F(EngineGroupTrust, PassesOverOnePlaceThatCannotBe) {
+  settle();
+  watch_s(1.5, 0.3);
+  for (const double lie_rad : {1.0, -12.0, 0.2}) {
+    hardest_Nm = fastest_radps = 0;
+    arm[0].lies_rad = lie_rad;
+    watch_s(0.005, 0.3);
+    arm[0].lies_rad = 0;
+    watch_s(0.5, 0.3);
+    EXPECT_LT(hardest_Nm, 0.5) << lie_rad;
+    EXPECT_EQ(told().state, GroupState::following) << reason();
+  }
+  EXPECT_EQ(said("its place leapt"), 0);
+}
+
+TEST_F(EngineGroupTrust, PassesOverOneSpeedThatCannotBe) {
+  settle();
+  watch_s(1.5, 0.3);
+  arm[0].lies_radps = 10;
+  watch_s(0.005, 0.3);
+  arm[0].lies_radps = 0;
+  watch_s(0.5, 0.3);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+}
+
+/// What it was told since goes by a place that is not known any more: it is damped.
+TEST_F(EngineGroupTrust, DoesNotBelieveAPlaceThatLeaptAndStays) {
+  settle();
+  watch_s(1.5, 0.3);
+  hardest_Nm = fastest_radps = 0;
+  arm[0].lies_rad = 1;
+  watch_s(1, 0.3);
+  EXPECT_EQ(said("shoulder: its place leapt by 1.00 rad at once"), 1);
+  EXPECT_LT(hardest_Nm, 0.5);
+  EXPECT_EQ(arm[1].state, AxisState::running);
+  // Who begins anew begins where it says that it is.
+  run_s(1.2);
+  watch_s(2, 1.3);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+  EXPECT_LT(fastest_radps, 1.1);
+}
+
+TEST_F(EngineGroupTrust, DoesNotBelievePlacesThatLeapToAndFro) {
+  settle();
+  watch_s(1.5, 0.3);
+  for (int i = 0; i < 40; ++i) {
+    arm[0].lies_rad = i % 2 == 0 ? 1 : 0;
+    watch_s(0.005, 0.3);
+  }
+  EXPECT_EQ(said("shoulder: its place leapt by"), 1);
+  EXPECT_LT(hardest_Nm, 6.1);
+}
+
 }  // namespace
 }  // namespace drover::engine
