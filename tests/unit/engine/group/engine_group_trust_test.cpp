@@ -295,21 +295,17 @@ TEST_F(EngineGroupTrust, PassesOverOneSpeedThatCannotBe) {
   EXPECT_EQ(told().state, GroupState::following) << reason();
 }
 
-/// What it was told since goes by a place that is not known any more: it is damped.
+/// What it is told goes by a place that is not known any more: it is damped.
 TEST_F(EngineGroupTrust, DoesNotBelieveAPlaceThatLeaptAndStays) {
   settle();
-  watch_s(1.5, 0.3);
+  watch_s(3, 0.3);
   hardest_Nm = fastest_radps = 0;
   arm[0].lies_rad = 1;
   watch_s(1, 0.3);
-  EXPECT_EQ(said("shoulder: its place leapt by 1.00 rad at once"), 1);
+  EXPECT_EQ(said("shoulder: its place leapt by 1.00 rad at once"), 1) << reason();
   EXPECT_LT(hardest_Nm, 0.5);
+  EXPECT_NEAR(arm[0].torque_Nm, 0, 1e-9);
   EXPECT_EQ(arm[1].state, AxisState::running);
-  // Who begins anew begins where it says that it is.
-  run_s(1.2);
-  watch_s(2, 1.3);
-  EXPECT_EQ(told().state, GroupState::following) << reason();
-  EXPECT_LT(fastest_radps, 1.1);
 }
 
 TEST_F(EngineGroupTrust, DoesNotBelievePlacesThatLeapToAndFro) {
