@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace drover::robomaster {
 namespace {
@@ -72,6 +73,7 @@ void RobomasterDriver::start_arming(Time now) {
   phase_ = Phase::arming;
   phase_since_ = now;
   lock_reason_.clear();
+  for (Motor& motor : motors_) motor.begin_anew();
   if (const Reason silent = silence_of_any(settings_.stale_after, now); !silent.empty())
     lock(silent);
 }
@@ -97,6 +99,9 @@ Reason RobomasterDriver::fault_of(std::size_t channel) const {
   Reason why;
   if (motor.too_hot())
     why.format("%.*s is too hot: %.0f °C", size, name.view().data(), motor.degC());
+  if (motor.is_torn())
+    why.format("%.*s has no current however much it is asked for: is a line to it torn?", size,
+               name.view().data());
   if (motor.is_stuck())
     why.format(
         "%.*s tells the same angle however hard it is pushed: its sensor, or its wheel, is stuck",
@@ -104,12 +109,25 @@ Reason RobomasterDriver::fault_of(std::size_t channel) const {
   return why;
 }
 
+/// It is no fault of one of them.
+bool RobomasterDriver::none_has_current() const {
+  const auto lacks = [](const Motor& motor) { return motor.lacks_current(); };
+  const auto is_torn = [](const Motor& motor) { return motor.is_torn(); };
+  return std::all_of(motors_.begin(), motors_.end(), lacks) &&
+         std::any_of(motors_.begin(), motors_.end(), is_torn);
+}
+
 /// What they told means for what is under way.
 void RobomasterDriver::look_at_motors(Time now) {
   const Reason silent = silence_of_any(settings_.stale_after, now);
   doubtful_ = doubtful_ || !silent.empty();
+  if (std::any_of(motors_.begin(), motors_.end(), std::mem_fn(&Motor::tells_current)))
+    for (Motor& motor : motors_) motor.expect_current();
   if (!attempts_to_run()) return;
   if (!silent.empty()) return lock(silent);
+  if (none_has_current())
+    return lock(
+        "no motor has a current however much is asked for: do they hear what they are told?");
   for (std::size_t i = 0; i < kMotors; ++i)
     if (const Reason fault = fault_of(i); !fault.empty()) {
       lock(fault);

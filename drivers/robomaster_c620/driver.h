@@ -64,6 +64,7 @@ class RobomasterDriver final : public Device, public FrameFace, public Actuator 
   void take(AxisRequest request, Time now);
   void look_at_motors(Time now);
   Reason fault_of(std::size_t channel) const;
+  bool none_has_current() const;
   bool all_slow() const;
   void let_go_after(Duration limit, Time now);
   void control(std::span<const Setpoint> wanted, Time now, DriverOut& out);

@@ -32,6 +32,11 @@ const OptionSpec kTwinOptions[] = {
      .max = 10000,
      .text = "of the winding"},
     {.name = "ambient_degC", .default_value = 25.0, .min = -40, .max = 80, .text = "of the air"},
+    {.name = "current_noise_A",
+     .default_value = 0.0,
+     .min = 0,
+     .max = 5,
+     .text = "at most, of the current that it tells, of its motor none"},
     {.name = "tells_temperature", .default_value = true, .text = "false: as a C610"},
     {.name = "boot_s",
      .default_value = 0.5,
@@ -67,6 +72,7 @@ TwinSettings read_twin_settings(const Options& options) {
   twin.thermal_resistance_KpW = checked.number("thermal_resistance_KpW");
   twin.thermal_capacity_JpK = checked.number("thermal_capacity_JpK");
   twin.ambient_degC = checked.number("ambient_degC");
+  twin.current_noise_A = checked.number("current_noise_A");
   twin.tells_temperature = options.flag("tells_temperature");
   twin.boot_time = checked.seconds("boot_s");
   return twin;

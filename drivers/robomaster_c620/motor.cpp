@@ -22,16 +22,21 @@ constexpr double kLeastShare = 0.3;
 constexpr double kPushes = 0.15;
 constexpr double kPushesFrictions = 5;
 constexpr Duration kStuck = std::chrono::milliseconds(150);
-/// A motor with a current has at least this share of what turns it at all.
+/// A motor with a current has at least this share of what turns it at all. One that is asked for so
+/// much more than that, or of its limit, for so long and has less is torn: a wheel that the others
+/// drag along nearly as it should turn is asked for little more than friction.
 constexpr double kHasNone = 0.5;
+constexpr double kAsksFrictions = 1.5;
+constexpr double kAsks = 0.03;
+constexpr Duration kTorn = std::chrono::milliseconds(300);
 /// Longer between two frames, and the turns between them are not counted.
 constexpr Duration kCounts = std::chrono::milliseconds(100);
 
 /// Whether it has been so for long; `since` is when that began.
-bool lasts(bool is_so, Time& since, Time now) {
+bool lasts(bool is_so, Duration limit, Time& since, Time now) {
   if (!is_so) since = kNever;
   if (is_so && since == kNever) since = now;
-  return is_so && now - since > kStuck;
+  return is_so && now - since > limit;
 }
 
 }  // namespace
@@ -71,6 +76,11 @@ void Motor::forget() {
   coast();
 }
 
+void Motor::begin_anew() {
+  torn_ = false;
+  without_since_ = kNever;
+}
+
 double Motor::effort_Nm() const {
   return feedback_.current / settings_.counts_per_A * settings_.Nm_per_A * sign_;
 }
@@ -103,16 +113,18 @@ void Motor::ramp_to(double wanted_radps, Duration dt) {
   ramped_radps_ += std::clamp(wanted_radps - ramped_radps_, -step_radps, step_radps);
 }
 
-/// It is told so much that something must be seen of it.
-bool Motor::is_pushed() const {
-  const double told_Nm = std::abs(counts_) / settings_.counts_per_A * settings_.Nm_per_A;
-  return told_Nm >=
-         std::max(kPushes * settings_.limit_Nm, kPushesFrictions * settings_.friction_Nm);
+/// It is asked for so much.
+bool Motor::is_asked(double share_of_limit, double frictions) const {
+  const double asked_Nm = std::abs(counts_) / settings_.counts_per_A * settings_.Nm_per_A;
+  return asked_Nm >=
+         std::max(share_of_limit * settings_.limit_Nm, frictions * settings_.friction_Nm);
 }
 
+/// What has no current turns nothing, whatever its sensor is like.
 void Motor::watch_angle(Time now) {
-  const bool pushed = is_pushed() && loop_ == Loop::following;
-  if (lasts(pushed, pushed_since_, now) && now - turned_at_ > kStuck) stuck_ = true;
+  const bool pushed =
+      is_asked(kPushes, kPushesFrictions) && loop_ == Loop::following && !lacks_current();
+  if (lasts(pushed, kStuck, pushed_since_, now) && now - turned_at_ > kStuck) stuck_ = true;
 }
 
 bool Motor::has_current() const {
@@ -121,15 +133,14 @@ bool Motor::has_current() const {
 
 /// A line of it is torn. One that never told a current may be of those that tell none.
 void Motor::watch_current(Time now) {
-  const bool without = is_pushed() && !has_current() && tells_current_;
-  if (lasts(without, without_since_, now)) torn_ = true;
+  const bool without = is_asked(kAsks, kAsksFrictions) && !has_current() && tells_current_;
+  if (lasts(without, kTorn, without_since_, now)) torn_ = true;
 }
 
 void Motor::follow(double wanted_radps, Duration dt, Time now) {
+  watch_current(now);
   watch_angle(now);
-  torn_ = false;
-  without_since_ = kNever;
-  if (!heard_within(settings_.blind_after, now)) return coast();
+  if (torn_ || !heard_within(settings_.blind_after, now)) return coast();
   if (loop_ != Loop::following) {
     ramped_radps_ = velocity_radps_;
     integral_Nm_ = spring_Nm();  // what holds it on a slope goes on to do so

@@ -25,6 +25,15 @@ class Motor final {
   bool too_hot() const;
   /// It is pushed hard and tells the same angle for ever: nobody sees what it does.
   bool is_stuck() const { return stuck_; }
+  /// A current is asked of it, and it tells that it has none: a line to it is torn, for what is
+  /// known. It gets none until it begins anew.
+  bool is_torn() const { return torn_; }
+  /// It may be: this cycle it has none.
+  bool lacks_current() const { return without_since_ != kNever; }
+  bool tells_current() const { return tells_current_; }
+  /// Those of one kind tell it all, or none.
+  void expect_current() { tells_current_ = true; }
+  void begin_anew();
 
   /// The current that makes it follow: PI, with a ramp, and what is more than the limit is not
   /// added up.
@@ -48,7 +57,7 @@ class Motor final {
   void begin_braking(Time now);
   void anchor(Time now);
   void ramp_to(double wanted_radps, Duration dt);
-  bool is_pushed() const;
+  bool is_asked(double share_of_limit, double frictions) const;
   bool has_current() const;
   void watch_angle(Time now);
   void watch_current(Time now);
@@ -67,8 +76,8 @@ class Motor final {
   Time pushed_since_ = kNever;  ///< hard, without a pause
   bool stuck_ = false;
   bool tells_current_ = false;   ///< it has told one
-  Time without_since_ = kNever;  ///< pushed hard, and tells that it has none
-  bool torn_ = false;            ///< so long that it is told none until it is to follow
+  Time without_since_ = kNever;  ///< asked for some, and tells that it has none
+  bool torn_ = false;            ///< for long
 
   // The loop.
   Loop loop_ = Loop::coasting;

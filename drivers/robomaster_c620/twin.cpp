@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "drivers/twin_states.h"
 
@@ -92,7 +93,16 @@ void RobomasterTwin::move(std::size_t channel, double dt_s, Shaft& shaft) {
   unit.degC += (heats_W - cools_W) / twin_.thermal_capacity_JpK * dt_s;
 }
 
-void RobomasterTwin::tell(std::size_t channel, TwinFrames& out) const {
+/// Evenly spread, and the same in each run.
+std::int16_t RobomasterTwin::noisy(std::int16_t current) {
+  noise_ = noise_ * 1664525U + 1013904223U;
+  const double share = 2.0 * noise_ / std::numeric_limits<std::uint32_t>::max() - 1;
+  const double most = settings_.most_counts;
+  const double told = current + share * twin_.current_noise_A * settings_.counts_per_A;
+  return static_cast<std::int16_t>(std::clamp(told, -most, most));
+}
+
+void RobomasterTwin::tell(std::size_t channel, TwinFrames& out) {
   const Unit& unit = units_[channel];
   if (unit.silent) return;
   Feedback feedback;
@@ -102,7 +112,7 @@ void RobomasterTwin::tell(std::size_t channel, TwinFrames& out) const {
   constexpr double kMost_rpm = 32767;
   feedback.rpm =
       static_cast<std::int16_t>(std::clamp(unit.rotor_radps / kRadpsPerRpm, -kMost_rpm, kMost_rpm));
-  feedback.current = unit.told_current;
+  feedback.current = noisy(unit.told_current);
   const double degC = unit.hot ? std::max(unit.degC, kHot_degC) : unit.degC;
   if (twin_.tells_temperature)
     feedback.degC = static_cast<std::uint8_t>(std::clamp(degC, 0.0, 255.0));

@@ -17,6 +17,7 @@ struct TwinSettings {
   double thermal_resistance_KpW = 1.5;
   double thermal_capacity_JpK = 150;
   double ambient_degC = 25;
+  double current_noise_A = 0;  ///< at most, of what it tells
   bool tells_temperature = true;
   Duration boot_time{};
 };
@@ -49,7 +50,8 @@ class RobomasterTwin final : public CanTwin {
   };
   void boot(Time now);
   void move(std::size_t channel, double dt_s, Shaft& shaft);
-  void tell(std::size_t channel, TwinFrames& out) const;
+  std::int16_t noisy(std::int16_t current);
+  void tell(std::size_t channel, TwinFrames& out);
 
   Settings settings_;
   TwinSettings twin_;
@@ -59,6 +61,7 @@ class RobomasterTwin final : public CanTwin {
   Time last_tick_ = kNever;
   Time last_fed_ = kNever;
   Time next_ = kNever;
+  std::uint32_t noise_ = 1;
   std::array<Unit, kMotors> units_;
 };
 

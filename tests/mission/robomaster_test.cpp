@@ -122,13 +122,14 @@ TEST(RobomasterMute, CoastsToRestAndNeedsAPersonBeforeItIsStartedAgain) {
               testing::Each(testing::Field(&Sent::time, testing::Gt(log.event("event again#1")))));
 }
 
-/// It is rolled by the three others, and tells so.
+/// It is rolled by the three others, and tells that it has none.
 TEST(RobomasterMute, StopsOnItsTrackWhenAMotorGetsNoCurrent) {
   const Record& log = record("robomaster_mute");
   const Time torn = log.event("event torn#1");
   const auto& error = log.first_status("NAV_ERROR", torn);
   figure("told after", error.time - torn);
-  EXPECT_THAT(error.why, testing::HasSubstr("wheel rear_left"));
+  EXPECT_THAT(error.why, testing::HasSubstr("wheel rear_left: motor 3 (203) has no current"));
+  EXPECT_LT(error.time - torn, 800ms);
   const double beside_m = drive_figures(log, log.event("event again#1"), Time::max()).max_m;
   figure("beside its track, at most", beside_m, "m");
   EXPECT_LT(beside_m, 0.1);

@@ -197,10 +197,68 @@ TEST(Robomaster, GivesUpWhenAMotorSeemsToStandHoweverHardItIsPushed) {
   EXPECT_EQ(bench.status.state, AxisState::running);
 }
 
+const char* const kTorn =
+    "motor 2 (202) has no current however much it is asked for: is a line to it torn?";
+
+TEST(Robomaster, GivesUpWhenAMotorHasNoCurrentHoweverMuchItIsAskedFor) {
+  CanBench bench(subject());
+  drive(bench);
+  bench.twin->set_fault("no_torque:2", bench.now);
+  bench.run(milliseconds(800), AxisRequest::run, 3.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason.view(), kTorn);
+  EXPECT_EQ(last_of(bench)[1], 0) << "it would turn as soon as its line has contact again";
+  bench.run(milliseconds(1500), AxisRequest::run, 3.0);
+  EXPECT_NEAR(bench.shaft.velocity_radps, 0, 0.05);
+  bench.twin->set_fault("", bench.now);
+  bench.run(milliseconds(100), AxisRequest::rest);
+  bench.run(milliseconds(1500), AxisRequest::run, 3.0);
+  EXPECT_EQ(bench.status.state, AxisState::running);
+  EXPECT_NEAR(bench.shafts[1].velocity_radps, 3, 0.3);
+}
+
+/// The three others tell theirs.
+TEST(Robomaster, FindsAMotorThatNeverHadACurrent) {
+  CanBench bench(subject());
+  bench.twin->set_fault("no_torque:2", bench.now);
+  bench.run(milliseconds(300), AxisRequest::rest);
+  bench.run(milliseconds(800), AxisRequest::run, 3.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason.view(), kTorn);
+}
+
+/// A wheel that the three others drag along needs little more than friction.
+TEST(Robomaster, FindsATornMotorWhoseWheelTurnsAsItShould) {
+  for (const double radps : {0.66, 3.5, -3.5}) {
+    CanBench bench(subject());
+    drive(bench, radps);
+    bench.twin->set_fault("no_torque:2", bench.now);
+    for (int i = 0; i < 100; ++i) {
+      bench.run(milliseconds(5), AxisRequest::run, radps);
+      bench.shafts[1].velocity_radps = 0.99 * radps;
+    }
+    EXPECT_EQ(bench.status.reason.view(), kTorn) << radps;
+  }
+}
+
+/// What none of them does is not one motor's: they hear nothing, or have no supply.
+TEST(Robomaster, NamesNoMotorWhenNoneHasACurrent) {
+  CanBench bench(subject());
+  drive(bench);
+  bench.run(milliseconds(1500), AxisRequest::run, 0.0);
+  for (const char* fault : {"no_torque:1", "no_torque:2", "no_torque:3", "no_torque:4"})
+    bench.twin->set_fault(fault, bench.now);
+  bench.run(milliseconds(800), AxisRequest::run, 3.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason.view(),
+            "no motor has a current however much is asked for: do they hear what they are told?");
+  for (const auto& status : bench.statuses) EXPECT_EQ(status.error_code, 0U);
+}
+
 /// They stop together: each says which it is, and that one that it is.
 TEST(Robomaster, TellsOfWhichMotorTheFaultIs) {
   for (const auto& [fault, motor] :
-       {std::pair{"stuck_encoder:2", 1U}, {"over_temperature:4", 3U}}) {
+       {std::pair{"stuck_encoder:2", 1U}, {"over_temperature:4", 3U}, {"no_torque:3", 2U}}) {
     CanBench bench(subject());
     drive(bench);
     ASSERT_TRUE(bench.twin->set_fault(fault, bench.now));

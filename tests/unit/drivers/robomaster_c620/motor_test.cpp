@@ -19,9 +19,20 @@ Settings settings_with(double gain = 3) {
 /// A motor that is told what it shows, 5 ms apart.
 class RobomasterMotor : public testing::Test {
  protected:
-  void show(int rpm, std::uint16_t angle = 0, std::uint8_t degC = 25) {
+  void show(int rpm, std::uint16_t angle = 0, std::uint8_t degC = 25, double current_A = 0) {
     now += milliseconds(5);
-    motor.on_feedback({angle, static_cast<std::int16_t>(rpm), 0, degC}, now);
+    const auto current = static_cast<std::int16_t>(current_A * settings.counts_per_A);
+    motor.on_feedback({angle, static_cast<std::int16_t>(rpm), current, degC}, now);
+  }
+  /// It turns a little slower than it should, and tells this current: how long until it is torn.
+  int cycles_until_torn(double current_A, int most = 400) {
+    for (int i = 0; i < most; ++i) {
+      show(static_cast<int>(1.95 / kRadpsPerRpm * settings.gear_ratio),
+           static_cast<std::uint16_t>(1000 + 3000 * (i % 2)), 25, current_A);
+      follow(2);
+      if (motor.is_torn()) return i;
+    }
+    return most;
   }
   void follow(double radps) { motor.follow(radps, milliseconds(5), now); }
   void brake(double radps = 0) { motor.brake(radps, milliseconds(5), now); }
@@ -108,6 +119,48 @@ TEST_F(RobomasterMotor, IsNotStuckWhileItIsPushedLittleOrStandsOrGivesByAPartOfA
     follow(9);
     ASSERT_FALSE(motor.is_stuck()) << "a wheel that is blocked";
   }
+}
+
+TEST_F(RobomasterMotor, IsTornWhenItIsAskedForACurrentForAThirdOfASecondAndHasNone) {
+  show(0, 0, 25, 1);
+  const int cycles = cycles_until_torn(0);
+  EXPECT_GT(cycles, 60) << "5 ms each";
+  EXPECT_LT(cycles, 80);
+}
+
+TEST_F(RobomasterMotor, IsNotTornWhileItHasWhatTurnsIt) {
+  show(0, 0, 25, 1);
+  EXPECT_EQ(cycles_until_torn(0.1), 400) << "its running friction is 0.15 A";
+}
+
+TEST_F(RobomasterMotor, IsNotTornWhereNoMotorEverToldACurrent) {
+  EXPECT_EQ(cycles_until_torn(0), 400);
+  motor.expect_current();  // another one did
+  EXPECT_LT(cycles_until_torn(0), 80);
+}
+
+TEST_F(RobomasterMotor, IsNotTornWhileLittleIsAskedOfItOrForAMoment) {
+  show(0, 0, 25, 1);
+  const int rpm = static_cast<int>(2 / kRadpsPerRpm * settings.gear_ratio);
+  for (int i = 0; i < 400; ++i) {
+    const bool behind = motor.counts() > settings.friction_Nm / settings.Nm_per_A * 820;
+    show(behind ? rpm + 1 : rpm, static_cast<std::uint16_t>(1000 + 3000 * (i % 2)));
+    follow(2);  // as fast as it should be: its friction is all that is asked for
+    ASSERT_FALSE(motor.is_torn());
+  }
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_EQ(cycles_until_torn(0, 50), 50);
+    show(rpm, 0, 25, 0.3);
+    follow(2);
+  }
+}
+
+TEST_F(RobomasterMotor, IsTriedAgainWhenItBeginsAnew) {
+  show(0, 0, 25, 1);
+  ASSERT_LT(cycles_until_torn(0), 80);
+  motor.begin_anew();
+  EXPECT_FALSE(motor.is_torn());
+  EXPECT_GT(cycles_until_torn(0), 50);
 }
 
 TEST_F(RobomasterMotor, BrakesByARampAndNeverTheOtherWay) {
