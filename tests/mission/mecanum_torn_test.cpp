@@ -89,5 +89,53 @@ TEST(MecanumTurnsTorn, IsToldAndStopsTheRobotAslant) {
   expect_stopped(aslant, 0.22, 5);
 }
 
+/// How long a motor was asked for a current and told that it has none, at the longest.
+Duration longest_without(const Record& log, std::uint32_t motor) {
+  // 16384 are 20 A: half as much again as running friction, 0.35 A, and half of it.
+  constexpr int kAsked = 430;
+  constexpr int kNone = 143;
+  const auto word = [](const CanFrame& frame, std::size_t at) {
+    return static_cast<std::int16_t>(frame.data[at] * 256 + frame.data[at + 1]);
+  };
+  int asked = 0;
+  Time since = kNever;
+  Duration longest{};
+  std::size_t had = 0;
+  for (const CanLine& line : log.can) {
+    if (line.frame.id == 0x200) asked = word(line.frame, 2 * (motor - 1));
+    if (line.frame.id != 0x200 + motor) continue;
+    const bool is_asked = std::abs(asked) >= kAsked;
+    const bool has = std::abs(word(line.frame, 4)) > kNone;
+    had += is_asked && has ? 1 : 0;
+    if (!is_asked || has) since = kNever;
+    if (is_asked && !has && since == kNever) since = line.time;
+    if (since != kNever) longest = std::max(longest, line.time - since);
+  }
+  EXPECT_GT(had, 1000U) << "motor " << motor << " was hardly asked for anything";
+  return longest;
+}
+
+/// 0.08 to 0.6 m/s to both sides, aslant, in bends and on the spot, from one way into the other.
+TEST(MecanumEveryWay, IsAccusedOfNothing) {
+  const Record& log = record("mecanum_every_way");
+  const std::string journal = said(log, "droverd.log");
+  EXPECT_THAT(journal, testing::Not(testing::HasSubstr("has no current")));
+  const auto ended = journal.find("joint commands ended: ");
+  ASSERT_NE(ended, std::string::npos);
+  EXPECT_EQ(journal.rfind("joint commands ended: "), ended);
+  EXPECT_EQ(journal.find("joint commands ended: the stream of joint commands fell silent"), ended);
+  EXPECT_GE(log.event("event commands_end#19"), log.event("event back#1") + 2s) << "of all ways";
+}
+
+/// 0.3 s would be a fault.
+TEST(MecanumEveryWay, IsFarFromBeingAccused) {
+  const Record& log = record("mecanum_every_way");
+  for (std::uint32_t motor = 1; motor <= 4; ++motor) {
+    const Duration longest = longest_without(log, motor);
+    figure("asked for a current and without it, at the longest", longest);
+    EXPECT_LT(longest, 50ms) << "motor " << motor;
+  }
+}
+
 }  // namespace
 }  // namespace drover::mission

@@ -227,6 +227,21 @@ TEST(Robomaster, FindsAMotorThatNeverHadACurrent) {
   EXPECT_EQ(bench.status.reason.view(), kTorn);
 }
 
+/// A slope would roll away what holds it.
+TEST(Robomaster, FindsATornMotorThatIsToHold) {
+  CanBench bench(subject());
+  drive(bench);
+  bench.load_Nm = 1;
+  bench.run(milliseconds(1500), AxisRequest::run, 0.0);
+  ASSERT_EQ(bench.status.state, AxisState::running);
+  bench.twin->set_fault("no_torque:2", bench.now);
+  bench.run(milliseconds(500), AxisRequest::run, 0.0);
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason.view(), kTorn);
+  EXPECT_EQ(last_of(bench)[1], 0);
+  EXPECT_NEAR(bench.shafts[0].velocity_radps, 0, 0.05) << "the others hold on";
+}
+
 /// A wheel that the three others drag along needs little more than friction.
 TEST(Robomaster, FindsATornMotorWhoseWheelTurnsAsItShould) {
   for (const double radps : {0.66, 3.5, -3.5}) {
