@@ -28,7 +28,7 @@ class Motor final {
   /// A current is asked of it, and it tells that it has none: a line to it is torn, for what is
   /// known. It gets none until it begins anew.
   bool is_torn() const { return torn_; }
-  /// It may be: this cycle it has none.
+  /// It may be: by what it told last it has none.
   bool lacks_current() const { return without_since_ != kNever; }
   bool tells_current() const { return tells_current_; }
   /// Those of one kind tell it all, or none.
