@@ -74,11 +74,10 @@ struct JointTargets {
 /// A joint command that was not understood or not permitted, so that it is seen and counted.
 struct JointTargetsRefused {
   Reason reason;
+  /// Its sender may have been there before the gateway, or its way, was: he may not know that the
+  /// robot was stopped.
+  bool was_there = false;
 };
-/// Why it is refused where its sender may have been there before the gateway, or its way, was: he
-/// may not know that the robot was stopped.
-inline constexpr std::string_view kJustCameWords =
-    "droverd has only just come, and nobody's commands are followed yet";
 /// Lets the drives go, so that a person can push the robot. Until ArmHold, also over restarts.
 /// Refused while it moves, and on a slope, where it would roll, unless the person says so.
 struct ReleaseHold {

@@ -25,6 +25,8 @@ inline constexpr std::size_t kMostUnreadBytes = std::size_t{8} << 20;
 /// as long as they may be apart. A stream that was there before shows by that: it is refused, and
 /// has to pause.
 inline constexpr Duration kJustCame = std::chrono::milliseconds(300);
+inline constexpr std::string_view kJustCameWords =
+    "droverd has only just come, and nobody's commands are followed yet";
 
 struct Arrival {
   Retain retain = Retain::no;

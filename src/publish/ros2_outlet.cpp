@@ -114,22 +114,24 @@ void Ros2Outlet::cmd_vel(ClientId client, const json::Node& request, Time now, A
 }
 
 /// What drover-ros2 made of a message: its values as AimRT's JSON, by the reader of the broker's.
-Result<aimrt::JointCommandHeard, Reason> Ros2Outlet::read_joint_command(const json::Node& request,
-                                                                        Time now) const {
+aimrt::JointCommands::Heard Ros2Outlet::read_joint_command(const json::Node& request,
+                                                           Time now) const {
   if (const auto why = text_member(request, "refused"); !why.empty())
-    return Reason(json::shown(why, kMostText));
-  if (now - since_ < inputs_.joint_commands->just_came()) return Reason(kJustCameWords);
+    return JointTargetsRefused{Reason(json::shown(why, kMostText))};
+  if (now - since_ < inputs_.joint_commands->just_came())
+    return JointTargetsRefused{Reason(kJustCameWords), true};
   const auto writer = text_member(request, "writer");
   const Time came{Duration{count_of(request, "at_ns")}};
-  if (writer.empty() || came <= Time{}) return Reason("its writer or at_ns is missing");
+  if (writer.empty() || came <= Time{})
+    return JointTargetsRefused{"its writer or at_ns is missing"};
   if (now - came > inputs_.joint_commands->max_age()) {
     Reason late;
     late.format("it waited for %.0f ms on this computer, %.0f ms are allowed",
                 1e3 * to_s(now - came), 1e3 * to_s(inputs_.joint_commands->max_age()));
-    return late;
+    return JointTargetsRefused{late};
   }
   auto message = aimrt::decode_joint_command_json(text_member(request, "message"));
-  if (!message) return message.error();
+  if (!message) return JointTargetsRefused{message.error()};
   aimrt::JointCommandHeard heard{*message, {}};
   heard.writer.stamp_ns = heard.message.stamp_ns;
   heard.writer.guid = writer;

@@ -57,8 +57,7 @@ class Ros2Outlet final : public Outlet {
   void cmd_vel(ClientId client, const json::Node& request, Time now, Actions& out);
   void joint_command(ClientId client, const json::Node& request, Time now, Actions& out);
   void scene_message(ClientId client, const json::Node& request, Time now, Actions& out);
-  Result<aimrt::JointCommandHeard, Reason> read_joint_command(const json::Node& request,
-                                                              Time now) const;
+  aimrt::JointCommands::Heard read_joint_command(const json::Node& request, Time now) const;
   bool follows(Time now) const { return heard_ != kNever && now - heard_ <= kLease; }
   bool hands_on(ClientId client, Time now) const { return client == client_ && follows(now); }
 

@@ -74,8 +74,7 @@ void JointGroup::take(const JointTargets& targets, RequestId::Source source, Tim
 }
 
 void JointGroup::refuse(const JointTargetsRefused& refused, Time now) {
-  const bool was_there = refused.reason == kJustCameWords;
-  for (JointServo& joint : joints_) joint.refuse(was_there, now);
+  for (JointServo& joint : joints_) joint.refuse(refused.was_there, now);
 }
 
 void JointGroup::end(const Reason& why) {

@@ -67,9 +67,8 @@ std::vector<std::uint8_t> with_flags(std::span<const std::uint8_t> record, std::
   return today;
 }
 
-/// The body of the command that a record is; empty: it is none.
-std::optional<std::size_t> body_of(std::span<const std::uint8_t> record) {
-  ByteReader in(record);
+/// The body of the command that a record is, and `in` behind its number; empty: it is none.
+std::optional<std::size_t> read_body(ByteReader& in) {
   const auto kind = in.byte();
   (void)in.signed_number();  // time
   (void)in.byte();           // whose request
@@ -78,6 +77,11 @@ std::optional<std::size_t> body_of(std::span<const std::uint8_t> record) {
   const std::size_t body = in.byte();
   if (kind != kind_now<CommandGiven>() || !in.good()) return {};
   return body;
+}
+
+std::optional<std::size_t> body_of(std::span<const std::uint8_t> record) {
+  ByteReader in(record);
+  return read_body(in);
 }
 
 template <class Body>
@@ -165,6 +169,17 @@ std::vector<std::uint8_t> from_seventh_edition(std::span<const std::uint8_t> rec
   // Nobody looked to the sides: zeros.
   if (!today.empty() && today.front() == kind_now<ClearanceFound>())
     today.resize(today.size() + kAside * sizeof(double), 0);
+  return today;
+}
+
+std::vector<std::uint8_t> from_eighth_edition(std::span<const std::uint8_t> record) {
+  constexpr std::string_view kWasThere =
+      "droverd has only just come, and nobody's commands are followed yet";
+  std::vector<std::uint8_t> today(record.begin(), record.end());
+  ByteReader in(record);
+  if (read_body(in) != body_now<JointTargetsRefused>()) return today;
+  const auto reason = in.text();
+  if (in.done()) today.push_back(reason == kWasThere ? 1 : 0);
   return today;
 }
 

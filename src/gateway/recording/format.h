@@ -13,7 +13,7 @@
 namespace drover::gateway {
 
 inline constexpr std::string_view kRecordingBegins = "drover recording ";  ///< "5\n"
-inline constexpr std::uint8_t kEdition = 8;
+inline constexpr std::uint8_t kEdition = 9;
 inline constexpr std::size_t kMaxFields = 4096;
 /// The longest record: a cycle in which everything is as large as it can be.
 inline constexpr std::size_t kMaxRecord = 128 * 1024;

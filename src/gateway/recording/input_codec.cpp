@@ -376,9 +376,11 @@ void get(JointTargets& targets, ByteReader& in) {
 
 void put(const JointTargetsRefused& refused, ByteWriter& out) {
   out.text(refused.reason);
+  out.byte(refused.was_there ? 1 : 0);
 }
 void get(JointTargetsRefused& refused, ByteReader& in) {
   refused.reason.assign(in.text());
+  refused.was_there = get_flag(in);
 }
 
 /// Above the target in its number.

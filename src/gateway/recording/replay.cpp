@@ -190,6 +190,7 @@ class Replay final {
     if (edition_ == 5) now.record = from_fifth_edition(record);
     if (edition_ <= 6) now.record = from_sixth_edition(now.record);
     if (edition_ <= 7) now.record = from_seventh_edition(now.record);
+    if (edition_ <= 8) now.record = from_eighth_edition(now.record);
     ByteReader in(now.record);
     now.kind = in.byte();
     const auto find = [this](std::uint64_t number) -> const Path* {

@@ -25,12 +25,16 @@ std::optional<Content> content_of(std::string_view content_type) {
   return std::nullopt;
 }
 
-Result<JointCommandHeard, Reason> read_packet(Names names, std::string_view payload,
-                                              const Arrival& arrival) {
+/// Whatever it says, by how it came; empty: it is looked at.
+JointTargetsRefused refused_unread(const Arrival& arrival) {
   // Old by its nature, whatever its stamp.
-  if (arrival.retain != Retain::no) return Reason("a retained message is never followed");
-  if (!arrival.late.empty()) return Reason(arrival.late);
-  if (arrival.just_connected) return Reason(kJustCameWords);
+  if (arrival.retain != Retain::no) return {"a retained message is never followed"};
+  if (!arrival.late.empty()) return {Reason(arrival.late)};
+  if (arrival.just_connected) return {Reason(kJustCameWords), true};
+  return {};
+}
+
+Result<JointCommandHeard, Reason> read_packet(Names names, std::string_view payload) {
   if (payload.size() > kMaxCommandBytes) return Reason("the packet is longer than 16 KiB");
   const auto packet = decode_packet(payload);
   if (!packet) return Reason(text(packet.error()));
@@ -93,9 +97,14 @@ std::vector<Telemetry> Channel::telemetry(const Snapshot& snapshot, Duration wal
 
 void Channel::on_command(Names names, std::string_view payload, const Arrival& arrival, Time now,
                          Duration wall_minus_monotonic, Actions& out) {
-  commands_.take(
-      RequestId::Source::aimrt, [&] { return read_packet(names, payload, arrival); }, now,
-      now.time_since_epoch() + wall_minus_monotonic, out);
+  const auto read = [&]() -> JointCommands::Heard {
+    if (const auto refused = refused_unread(arrival); !refused.reason.empty()) return refused;
+    const auto heard = read_packet(names, payload);
+    if (!heard) return JointTargetsRefused{heard.error()};
+    return *heard;
+  };
+  commands_.take(RequestId::Source::aimrt, read, now, now.time_since_epoch() + wall_minus_monotonic,
+                 out);
 }
 
 }  // namespace drover::publish::aimrt

@@ -99,7 +99,7 @@ Result<JointTargets, Reason> JointCommands::judged(const JointCommandHeard& hear
 
 void JointCommands::take(RequestId::Source source, const Read& read, Time now, Duration wall,
                          Actions& out) {
-  Reason reason;
+  JointTargetsRefused refused;
   Way& way = way_of(source);
   if (!way.commands.take(now)) {
     // The engine's ring is for others too: a reset must find room in it.
@@ -107,25 +107,26 @@ void JointCommands::take(RequestId::Source source, const Read& read, Time now, D
       ++unread_;
       return;
     }
-    reason = Reason(slow_down_);
+    refused.reason = Reason(slow_down_);
   }
   Command command{{source, ++commands_}, now, {}};
   const auto rivals_before = rivals_refused();
-  if (reason.empty()) {
+  if (refused.reason.empty()) {
     const auto heard = read();
-    const auto targets = heard ? judged(*heard, now, wall) : heard.error();
-    if (targets) {
+    if (!heard) {
+      refused = heard.error();
+    } else if (const auto targets = judged(*heard, now, wall)) {
       command.body = *targets;
     } else {
-      reason = targets.error();
+      refused.reason = targets.error();
     }
   }
-  if (!reason.empty()) {
-    command.body = JointTargetsRefused{reason};
+  if (!refused.reason.empty()) {
+    command.body = refused;
     const bool of_rivals = rivals_refused() != rivals_before;
     if ((of_rivals ? way.rivals : way.log).take(now)) {
-      out.push_back(
-          LogLine{Notice::Level::warning, "joint command refused: " + std::string(reason.view())});
+      out.push_back(LogLine{Notice::Level::warning,
+                            "joint command refused: " + std::string(refused.reason.view())});
     }
   }
   out.push_back(command);

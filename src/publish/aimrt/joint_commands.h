@@ -36,8 +36,10 @@ struct JointCommandHeard {
 
 class JointCommands final {
  public:
-  /// Reads what came, or tells why it is no command. Not called for what nobody looks at.
-  using Read = std::function<Result<JointCommandHeard, Reason>()>;
+  /// What came, or why it is no command.
+  using Heard = Result<JointCommandHeard, JointTargetsRefused>;
+  /// Reads it. Not called for what nobody looks at.
+  using Read = std::function<Heard()>;
 
   explicit JointCommands(const JointCommandsConfig& config);
 

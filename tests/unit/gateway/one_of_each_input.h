@@ -52,6 +52,7 @@ struct OneOfEachInput {
     command(SetOrigin{{52.1, 10.2, 80.0}});
     command(joints);
     command(JointTargetsRefused{"an unknown joint"});
+    command(JointTargetsRefused{"droverd has only just come", true});
     command(StartTask{&path, 1, 0.5});
     command(FindHeading{});
     command(ProposeOrigin{});

@@ -46,8 +46,10 @@ class Ros2Joints : public testing::Test {
       const auto* command = std::get_if<Command>(&action);
       if (command == nullptr) continue;
       EXPECT_EQ(command->id.source, RequestId::Source::ros2);
-      if (const auto* refused = std::get_if<JointTargetsRefused>(&command->body))
+      if (const auto* refused = std::get_if<JointTargetsRefused>(&command->body)) {
+        was_there_ = refused->was_there;
         return std::string(refused->reason.view());
+      }
       followed_ = std::get<JointTargets>(command->body);
       return "";
     }
@@ -66,6 +68,7 @@ class Ros2Joints : public testing::Test {
   Ros2Outlet open_{50, no_turns, {.joint_commands = &commands_}};
   Ros2Outlet closed_{50, no_turns};
   JointTargets followed_;
+  bool was_there_ = false;  ///< who was refused last
 };
 
 TEST_F(Ros2Joints, GoToTheEngineAsThoseOfTheBroker) {
@@ -103,8 +106,12 @@ TEST_F(Ros2Joints, AreRefusedForAMomentWhenTheirProgramHasJustCome) {
   now_ += Ros2Outlet::kLease + 1ms;
   Actions out;
   EXPECT_TRUE(open_.on_line(7, kTheyFollow, now_, out));
-  EXPECT_EQ(refusal(line(kWheels)), kJustCameWords);
+  EXPECT_EQ(refusal(line(kWheels)),
+            "droverd has only just come, and nobody's commands are followed yet");
+  EXPECT_TRUE(was_there_);
   now_ += kJustCame;
+  EXPECT_NE(refusal(line("no JSON")), "");
+  EXPECT_FALSE(was_there_);
   EXPECT_EQ(refusal(line(kWheels)), "");
   EXPECT_TRUE(open_.on_line(7, kTheyFollow, now_, out));
   EXPECT_EQ(refusal(line(kWheels)), "") << "it was here";
@@ -229,7 +236,7 @@ class JointFlood : public Ros2Joints {
       EXPECT_TRUE(open_.on_line(7, line("no JSON"), now_, actions_));
     } else {
       commands_.take(
-          source, [] { return Reason("no packet"); }, now_, 0s, actions_);
+          source, [] { return JointTargetsRefused{"no packet"}; }, now_, 0s, actions_);
     }
     return std::any_of(actions_.begin(), actions_.end(), [](const Action& action) {
       return std::holds_alternative<LogLine>(action);

@@ -74,7 +74,7 @@ TEST_F(EngineGroup, AStreamThatGoesOnOverARestartWaitsThoughItsWayComesLate) {
 TEST_F(EngineGroup, AStreamThatGoesOnOverARestartDoesNotArmWhatIsOff) {
   settle();
   for (int i = 0; i < 60; ++i) {
-    if (i % 2 == 0) rig.command(JointTargetsRefused{Reason(kJustCameWords)}, source);
+    if (i % 2 == 0) rig.command(JointTargetsRefused{"in whichever words", true}, source);
     tick();
   }
   send_s(4, 0.2);
@@ -92,8 +92,10 @@ TEST_F(EngineGroup, AStreamThatGoesOnOverARestartDoesNotArmWhatIsOff) {
 /// Who goes on for long without being understood is no old stream of this arm's.
 TEST_F(EngineGroup, WhatIsRefusedForAnotherCauseKeepsNobodyFromBeginning) {
   settle();
+  // Words are for people.
+  constexpr const char* why = "droverd has only just come, and nobody's commands are followed yet";
   for (int i = 0; i < 60; ++i) {
-    if (i % 2 == 0) rig.command(JointTargetsRefused{"the message is no joint command"}, source);
+    if (i % 2 == 0) rig.command(JointTargetsRefused{why}, source);
     tick();
   }
   send_s(4, 0.2);

@@ -106,22 +106,24 @@ TEST(FourthEdition, DidNotRememberWhereTheRobotStood) {
             "at 8.000000000 s: recalled: at rest held run away stopped at the robot: off");
 }
 
+/// A command as it is recorded today.
+std::vector<std::uint8_t> recorded(const decltype(Command::body)& body) {
+  Command command{{RequestId::Source::ros2, 7}, Time{std::chrono::seconds(5)}, {}};
+  command.body = body;
+  std::vector<std::uint8_t> buffer(1024);
+  ByteWriter out(buffer);
+  out.byte(static_cast<std::uint8_t>(InputBody(CommandGiven{}).index()));
+  write_input({Time{std::chrono::seconds(8)}, CommandGiven{command}}, Time{std::chrono::seconds(7)},
+              out);
+  buffer.resize(out.written().size());
+  return buffer;
+}
+
 TEST(FifthEdition, KnewOfTwistsTheirSpeedsOnly) {
-  const auto today = [](const decltype(Command::body)& body) {
-    Command command{{RequestId::Source::ros2, 7}, Time{std::chrono::seconds(5)}, {}};
-    command.body = body;
-    std::vector<std::uint8_t> buffer(1024);
-    ByteWriter out(buffer);
-    out.byte(static_cast<std::uint8_t>(InputBody(CommandGiven{}).index()));
-    write_input({Time{std::chrono::seconds(8)}, CommandGiven{command}},
-                Time{std::chrono::seconds(7)}, out);
-    buffer.resize(out.written().size());
-    return buffer;
-  };
   for (const decltype(Command::body)& body :
        {decltype(Command::body)(FollowTwist{{0.3, -0.1}}),
         decltype(Command::body)(TwistRefused{"linear.y is 0.3"})}) {
-    const auto whole = today(body);
+    const auto whole = recorded(body);
     const std::size_t aside = std::holds_alternative<FollowTwist>(body) ? sizeof(double) : 0;
     // It knew neither what was before it nor of a way to the side.
     const std::span fifth(whole.data(), whole.size() - aside - 1);
@@ -129,7 +131,7 @@ TEST(FifthEdition, KnewOfTwistsTheirSpeedsOnly) {
     const std::span sixth(whole.data(), whole.size() - aside);
     EXPECT_EQ(from_sixth_edition(sixth), whole);
   }
-  const auto stop = today(EngageStop{});
+  const auto stop = recorded(EngageStop{});
   EXPECT_EQ(from_fifth_edition(stop), stop);
   EXPECT_EQ(from_sixth_edition(stop), stop);
   EXPECT_TRUE(from_sixth_edition({}).empty());
@@ -149,6 +151,24 @@ TEST(SeventhEdition, KnewOfNobodyWhoLookedToTheSides) {
   const std::span seventh(whole.data(), whole.size() - 5 * sizeof(double));
   EXPECT_EQ(from_seventh_edition(seventh), whole);
   EXPECT_TRUE(from_seventh_edition({}).empty());
+}
+
+TEST(EighthEdition, SaidWhoHadBeenThereBeforeInWordsOnly) {
+  for (const JointTargetsRefused& refused :
+       {JointTargetsRefused{"droverd has only just come, and nobody's commands are followed yet",
+                            true},
+        JointTargetsRefused{"it names no joint", false}, JointTargetsRefused{}}) {
+    const auto whole = recorded(refused);
+    const std::span eighth(whole.data(), whole.size() - 1);
+    EXPECT_EQ(from_eighth_edition(eighth), whole) << refused.reason.view();
+  }
+  const auto other = recorded(TwistRefused{"it names no joint", true});
+  EXPECT_EQ(from_eighth_edition(other), other);
+  EXPECT_TRUE(from_eighth_edition({}).empty());
+  // Cut short: as it is, for the reader to refuse.
+  const auto whole = recorded(JointTargetsRefused{"it names no joint"});
+  const std::span cut(whole.data(), whole.size() - 4);
+  EXPECT_EQ(from_eighth_edition(cut), std::vector<std::uint8_t>(cut.begin(), cut.end()));
 }
 
 TEST_F(FirstEdition, HadTheSameOfAllElse) {

@@ -71,8 +71,11 @@ TEST_F(AnAimrtChannel, NeverFollowsARetainedMessage) {
 /// A stream that was there before this program: refused, it has to pause.
 TEST_F(AnAimrtChannel, FollowsNobodyWhileItHasOnlyJustCome) {
   give(in_packet(joint_entry("left", 0, 0)), {.just_connected = true});
-  EXPECT_EQ(last_refusal(), kJustCameWords);
+  EXPECT_EQ(last_refusal(), "droverd has only just come, and nobody's commands are followed yet");
+  EXPECT_TRUE(commands<JointTargetsRefused>().back().was_there);
   EXPECT_TRUE(commands<JointTargets>().empty());
+  give(in_packet(joint_entry("nobody's", 0, 0)));
+  EXPECT_FALSE(commands<JointTargetsRefused>().back().was_there);
   give(in_packet(joint_entry("left", 0, 0)));
   EXPECT_EQ(commands<JointTargets>().size(), 1U);
 }
