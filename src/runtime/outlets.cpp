@@ -62,7 +62,8 @@ publish::aimrt::JointCommandsConfig joint_commands_config(const config::DroverCo
       auto& joint = commands.rules.joints.at(rules.axis);
       joint.follows = rules.follows;
       joint.group = i + 1;
-      commands.just_came = std::max(commands.just_came, from_s(rules.timeout_s));
+      joint.timeout = from_s(rules.timeout_s);
+      commands.just_came = std::max(commands.just_came, joint.timeout);
     }
   commands.max_commands_Hz *= static_cast<double>(1 + groups.size());
   return commands;

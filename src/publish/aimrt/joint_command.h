@@ -45,6 +45,7 @@ struct JointRule {
   std::string name;
   std::optional<JointFollows> follows;  ///< none: a wheel of the base, which follows a velocity
   std::size_t group = 0;                ///< whose owners it has; 0: the base's
+  Duration timeout{};  ///< so far apart its commands may be; 0: no farther than a wheel's
 };
 
 struct JointCommandRules {

@@ -10,9 +10,12 @@ JointCommands::JointCommands(const JointCommandsConfig& config)
       ros2_(broker_),
       just_came_(config.just_came),
       slow_down_("slow down: " + broker_.commands.in_words("messages")) {
-  std::size_t groups = 1;
-  for (const JointRule& joint : rules_.joints) groups = std::max(groups, joint.group + 1);
-  groups_.assign(groups, Group{Writers(config.silence)});
+  std::vector<Duration> silences{config.silence};  // by group
+  for (const JointRule& joint : rules_.joints) {
+    silences.resize(std::max(silences.size(), joint.group + 1), config.silence);
+    silences[joint.group] = std::max(silences[joint.group], joint.timeout);
+  }
+  for (const Duration silence : silences) groups_.push_back({Writers(silence)});
 }
 
 JointCommands::Way& JointCommands::way_of(RequestId::Source source) {

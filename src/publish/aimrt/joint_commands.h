@@ -19,7 +19,8 @@ namespace drover::publish::aimrt {
 
 struct JointCommandsConfig {
   JointCommandRules rules;
-  Duration silence = std::chrono::milliseconds(100);  ///< after which a stream has ended
+  /// After which a stream has ended; of a group, after the longest JointRule::timeout of its own.
+  Duration silence = std::chrono::milliseconds(100);
   /// By each way, the broker and ROS 2: more are not looked at. 200 a second and what came late.
   double max_commands_Hz = 250;
   double command_burst = 50;

@@ -27,7 +27,10 @@ class Ros2Joints : public testing::Test {
   }
   static aimrt::JointCommandsConfig config() {
     aimrt::JointCommandsConfig config;
-    config.rules.joints = {{"left"}, {"right"}, {"elbow", JointFollows::impedance, 1}};
+    config.rules.joints = {{"left"},
+                           {"right"},
+                           {"elbow", JointFollows::impedance, 1},
+                           {"wrist", JointFollows::impedance, 1}};
     config.just_came = kJustCame;
     return config;
   }
@@ -163,6 +166,17 @@ TEST_F(Ros2Joints, OfTwoWritersAreToldApartByTheirGuid) {
       << "the arm has an owner of its own";
   now_ += 101ms;
   EXPECT_EQ(refusal(line(kWheels, "01.0b")), "") << "the first is silent";
+}
+
+TEST_F(Ros2Joints, OfTwoWritersWhoNameOtherJointsOfAnArmHaveOneOwner) {
+  const char* const elbow = R"({"joints":[{"name":"elbow"}]})";
+  const char* const wrist = R"({"joints":[{"name":"wrist"}]})";
+  for (int i = 0; i < 20; ++i, now_ += 20ms) {
+    EXPECT_EQ(refusal(line(elbow)), "");
+    EXPECT_EQ(refusal(line(wrist, "01.0b")),
+              "two programs write joint commands: 01.0a has the joints, 01.0b is refused");
+    EXPECT_EQ(refusal(line(wrist)), "") << "who has the arm may name its joints in turn";
+  }
 }
 
 TEST_F(Ros2Joints, OfOneWriterMayJumpAsTheyLike) {

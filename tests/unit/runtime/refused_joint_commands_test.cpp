@@ -295,7 +295,9 @@ TEST_F(RefusedJointCommands, AreFiftyAndMore) {
 TEST_F(RefusedJointCommands, AreThoseOfAWayThatHasJustComeForAsLongAsTheyMayBeApart) {
   EXPECT_EQ(joint_commands_config(config).just_came, publish::kJustCame);
   config.engine.groups[0].joints[0].timeout_s = 0.8;
-  EXPECT_EQ(joint_commands_config(config).just_came, 800ms);
+  const auto slow = joint_commands_config(config);
+  EXPECT_EQ(slow.just_came, 800ms);
+  EXPECT_EQ(slow.rules.joints.at(kElbow).timeout, 800ms) << "and have their owner for as long";
 }
 
 TEST_F(RefusedJointCommands, MoveNothingThatRests) {

@@ -19,6 +19,7 @@ class JointsOfTwoGroups : public testing::Test {
                            {"right"},
                            {"elbow", JointFollows::impedance, 1},
                            {"wrist", JointFollows::impedance, 1}};
+    config.rules.joints[3].timeout = 1s;
     return config;
   }
   static JointCommandEntry at(const char* joint, double position_rad) {
@@ -57,6 +58,30 @@ TEST_F(JointsOfTwoGroups, ThatOneProgramNamesInTurnAreFollowed) {
     EXPECT_THAT(say("", {at("elbow", 0.8)}), IsEmpty()) << i;
     EXPECT_THAT(say("", {at("wrist", -1)}), IsEmpty()) << i;
   }
+}
+
+/// And a second program that names the others in turn is no owner of them.
+TEST_F(JointsOfTwoGroups, OfAnArmHaveOneOwnerWhicheverOfThemHeNames) {
+  for (int i = 0; i < 50; ++i, now_ += 10ms) {
+    EXPECT_THAT(say("arm", {at("elbow", 0.8)}), IsEmpty()) << i;
+    EXPECT_THAT(say("hand", {at("wrist", -1)}),
+                HasSubstr("frame_id 'arm') has the joints, JointCommand (pb, frame_id 'hand') is"));
+  }
+  EXPECT_THAT(std::string(commands_.rivals(now_)), HasSubstr("'hand') is refused"));
+}
+
+/// Between two messages of a slow stream it is not silent.
+TEST_F(JointsOfTwoGroups, KeepTheirOwnerForAsLongAsHisCommandsMayBeApart) {
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_THAT(say("slow", {at("elbow", 0.5)}), IsEmpty()) << i;
+    now_ += 200ms;
+    EXPECT_THAT(say("rival", {at("elbow", -0.5)}), HasSubstr("'rival') is refused")) << i;
+    EXPECT_THAT(say("wheels", {at("left", 0)}), IsEmpty()) << i;
+    now_ += 200ms;
+  }
+  EXPECT_THAT(say("rival", {at("left", 0)}), IsEmpty()) << "a wheel's commands cease sooner";
+  now_ += 601ms;
+  EXPECT_THAT(say("rival", {at("elbow", -0.5)}), IsEmpty()) << "he is silent";
 }
 
 /// Its wheels are no business of the arm's, which it names more often.
