@@ -226,29 +226,49 @@ double JointShaper::begins_to_hold_radps(const JointMeasured& measured) const {
   return std::clamp(goes_radps, -rules_.max_velocity_radps, rules_.max_velocity_radps);
 }
 
+/// Of the law that was told last.
+double JointShaper::gives_Nm(const JointMeasured& measured) const {
+  return stiffness_ * (told_.position_rad - measured.position_rad) +
+         damping_ * (told_velocity_radps_ - measured.velocity_radps) + told_.effort_Nm;
+}
+
+void JointShaper::begin_hold(const JointMeasured& measured, bool keeps_weight) {
+  holds_ = true;
+  velocity_radps_ = begins_to_hold_radps(measured);
+  // All that the drive gives now; of what sinks slowly the damping is its weight.
+  const double carries =
+      std::clamp(std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives_Nm(measured),
+                 -rules_.max_effort_Nm, rules_.max_effort_Nm);
+  weight_.begin(keeps_weight ? kept(carries, measured) : 0);
+  // What the damping goes on giving is not given twice.
+  const double still_damps = damping_ * (velocity_radps_ - measured.velocity_radps);
+  effort_Nm_ = std::clamp(carries - still_damps, std::min(carries, 0.0), std::max(carries, 0.0));
+  position_rad_ = held_rad_ = measured.position_rad;
+}
+
+/// Its set point is drawn after it without a step of what it gives.
+void JointShaper::look_at_weight(const JointMeasured& measured, double dt_s) {
+  const bool stands = measured.position_rad == held_rad_ && measured.velocity_radps == 0;
+  const bool rests = velocity_radps_ == 0 && stiffness_ == rules_.stiffness_Nmprad &&
+                     std::abs(measured.velocity_radps) < kMoves_radps;
+  held_rad_ = measured.position_rad;
+  const double drawn_rad = weight_.look(
+      {measured.position_rad - position_rad_, gives_Nm(measured), stiffness_, stands, rests, dt_s});
+  if (drawn_rad == 0) return;
+  position_rad_ += drawn_rad;
+  effort_Nm_ = weight_.keeps_Nm();
+}
+
 void JointShaper::hold(const JointMeasured& measured, double dt_s, bool keeps_weight) {
   limited_ = 0;
-  if (!holds_) {
-    holds_ = true;
-    velocity_radps_ = begins_to_hold_radps(measured);
-    // All that the drive gives now; of what sinks slowly the damping is its weight.
-    const double damps = damping_ * (told_velocity_radps_ - measured.velocity_radps);
-    const double gives =
-        stiffness_ * (told_.position_rad - measured.position_rad) + damps + told_.effort_Nm;
-    const double carries =
-        std::clamp(std::isfinite(measured.effort_Nm) ? measured.effort_Nm : gives,
-                   -rules_.max_effort_Nm, rules_.max_effort_Nm);
-    carried_Nm_ = keeps_weight ? kept(carries, measured) : 0;
-    // What the damping goes on giving is not given twice.
-    const double still_damps = damping_ * (velocity_radps_ - measured.velocity_radps);
-    effort_Nm_ = std::clamp(carries - still_damps, std::min(carries, 0.0), std::max(carries, 0.0));
-    position_rad_ = measured.position_rad;
-  }
+  if (!holds_) begin_hold(measured, keeps_weight);
+  look_at_weight(measured, dt_s);
+  const double carried_Nm = weight_.keeps_Nm();
   // A weight is taken up sooner than an effort is let go.
-  if (std::abs(effort_Nm_) < std::abs(carried_Nm_))
+  if (std::abs(effort_Nm_) < std::abs(carried_Nm))
     effort_Nm_ =
-        approach(effort_Nm_, carried_Nm_, (kCatches - 1) * risen(dt_s) * rules_.max_effort_Nm);
-  approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, carried_Nm_, dt_s);
+        approach(effort_Nm_, carried_Nm, (kCatches - 1) * risen(dt_s) * rules_.max_effort_Nm);
+  approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, carried_Nm, dt_s);
   approach_velocity(0, dt_s);
   tell(velocity_radps_, measured);
 }

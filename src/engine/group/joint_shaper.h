@@ -9,6 +9,7 @@
 #include "drover/command.h"
 #include "drover/measurement.h"
 #include "engine/config.h"
+#include "engine/group/joint_weight.h"
 
 namespace drover::engine {
 
@@ -35,7 +36,7 @@ constexpr JointValues bit(JointValue value) {
 /// speed that it has not come to yet) stays within the limit of effort. Pure.
 class JointShaper final {
  public:
-  explicit JointShaper(const JointRules& rules) : rules_(rules) {}
+  explicit JointShaper(const JointRules& rules) : rules_(rules), weight_(rules) {}
 
   /// The drive runs from now on, or again: nothing is remembered.
   void take_over(const JointMeasured& measured);
@@ -74,6 +75,9 @@ class JointShaper final {
   void follow_effort(const JointTarget& target, const JointMeasured& measured, double dt_s);
   double kept(double effort_Nm, const JointMeasured& measured) const;
   double begins_to_hold_radps(const JointMeasured& measured) const;
+  double gives_Nm(const JointMeasured& measured) const;
+  void begin_hold(const JointMeasured& measured, bool keeps_weight);
+  void look_at_weight(const JointMeasured& measured, double dt_s);
   void tell(double velocity_radps, const JointMeasured& measured);
 
   JointRules rules_;
@@ -86,7 +90,8 @@ class JointShaper final {
   double most_damped_ = 0;
   double effort_Nm_ = 0;
   bool holds_ = false;
-  double carried_Nm_ = 0;  ///< while it holds
+  JointWeight weight_;   ///< while it holds
+  double held_rad_ = 0;  ///< it was measured, in the cycle of holding before
   JointValues limited_ = 0;
   double told_velocity_radps_ = 0;
   Impedance told_;

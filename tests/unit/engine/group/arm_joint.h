@@ -24,6 +24,9 @@ struct ArmJoint {
   double lies_radps = 0;
   bool rests = false;    ///< nothing of it moves, whatever its drive does
   double stop_rad = 10;  ///< an end that gives way a little
+  double low_stop_rad = -10;
+  double stop_Nmprad = 3000;
+  double rubs_Nm = 0;  ///< in its gears, at any speed
 
   double position_rad = 0;
   double velocity_radps = 0;
@@ -74,12 +77,20 @@ struct ArmJoint {
                       : -damps_Nmsprad * told_radps();
   }
 
+  /// What an end gives back.
+  double stop_Nm() const {
+    const double end_rad = std::clamp(position_rad, low_stop_rad, stop_rad);
+    if (end_rad == position_rad) return 0;
+    return stop_Nmprad * (end_rad - position_rad) - 10 * velocity_radps;
+  }
+
   void step(double dt_s) {
     const double pull_Nm = -weight_Nm * std::cos(position_rad) - friction_Nms * velocity_radps;
     const double given_Nm = wrong_way ? -torque_Nm : torque_Nm;
-    const double stop_Nm =
-        position_rad > stop_rad ? 3000 * (stop_rad - position_rad) - 10 * velocity_radps : 0;
-    velocity_radps += (given_Nm + pull_Nm + push_Nm + stop_Nm) / inertia_kgm2 * dt_s;
+    const double moves_Nm = given_Nm + pull_Nm + push_Nm + stop_Nm();
+    velocity_radps += moves_Nm / inertia_kgm2 * dt_s;
+    const double rubs_radps = rubs_Nm / inertia_kgm2 * dt_s;
+    velocity_radps -= std::clamp(velocity_radps, -rubs_radps, rubs_radps);
     if (rests) velocity_radps = 0;
     position_rad += velocity_radps * dt_s;
   }

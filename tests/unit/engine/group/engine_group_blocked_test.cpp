@@ -65,6 +65,47 @@ TEST_F(EngineGroupBlocked, DoesNotGoOnPressingWhereItCarriesAWeight) {
   EXPECT_LT(arm[0].torque_Nm, 1.5) << "its weight alone";
 }
 
+/// Not hard enough to be ended, and for ever once it is held.
+TEST_F(EngineGroupBlocked, LetsGoOfWhatItPressesWithWhenItsCommandsCease) {
+  arm[0].stop_rad = -0.5;
+  arm[0].weight_Nm = 1.5;
+  settle();
+  send_s(4, -0.43);
+  ASSERT_EQ(told().state, GroupState::following) << reason();
+  ASSERT_LT(arm[0].stop_Nm(), -2.5);
+  run_s(8);
+  EXPECT_EQ(told().state, GroupState::holding);
+  EXPECT_EQ(reason(), "");
+  EXPECT_GT(arm[0].stop_Nm(), -0.1);
+  EXPECT_NEAR(arm[0].torque_Nm, 1.5 * std::cos(arm[0].position_rad), 0.1);
+  EXPECT_NEAR(arm[0].position_rad, -0.5, 0.005);
+}
+
+TEST_F(EngineGroupBlocked, LetsGoOfItAfterAnEstopToo) {
+  arm[0].stop_rad = -0.5;
+  arm[0].weight_Nm = 1.5;
+  settle();
+  send_s(4, -0.43);
+  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  run_s(8);
+  EXPECT_GT(arm[0].stop_Nm(), -0.1);
+  EXPECT_NEAR(arm[0].torque_Nm, 1.5 * std::cos(arm[0].position_rad), 0.1);
+}
+
+/// As by a brake. Letting go of its effort is no reason to take its encoder for one that stands.
+TEST_F(EngineGroupBlocked, IsHeldAsBeforeWhereNothingOfItMoves) {
+  arm[0].weight_Nm = 3;
+  settle();
+  send_s(4, -0.5);
+  run_s(0.2);
+  arm[0].rests = true;
+  const double carried = arm[0].torque_Nm;
+  run_s(20);
+  EXPECT_EQ(told().state, GroupState::holding);
+  EXPECT_EQ(reason(), "");
+  EXPECT_NEAR(arm[0].torque_Nm, carried, 0.2);
+}
+
 TEST_F(EngineGroupBlocked, FollowsAnewWhenItIsFree) {
   arm[0].stop_rad = -1;
   settle();
