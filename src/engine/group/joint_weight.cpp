@@ -10,13 +10,13 @@ namespace drover::engine {
 namespace {
 
 constexpr double kRests_s = 0.6;
-constexpr double kEases_s = 6;      ///< all of its largest effort
-constexpr double kSlowly = 0.4;     ///< as soon as it moves
-constexpr double kSmooths_s = 0.1;  ///< what it measures, of what shakes it
+constexpr double kEases_s = 5;       ///< all of its largest effort
+constexpr double kSlowly = 0.25;     ///< as soon as it moves
+constexpr double kSmooths_s = 0.08;  ///< what it measures, of what shakes it
 constexpr double kMoves_rad = 0.0005;
-constexpr double kSees_rad = 0.001;    ///< what is stiff gave way before
-constexpr double kSinks_rad = 0.0016;  ///< some bits of its drive's
-constexpr double kLooks_s = 0.4;
+constexpr double kSees_rad = 0.0007;   ///< what is stiff gave way before
+constexpr double kSinks_rad = 0.0012;  ///< some bits of its drive's
+constexpr double kLooks_s = 0.3;
 /// Of its stiffness: as stiff is what gives way, at least. No weight is.
 constexpr double kStiff = 0.3;
 constexpr double kDrawn_rad = 0.06;
@@ -35,7 +35,8 @@ void JointWeight::begin(double effort_Nm) {
 /// against it is gone, comes back first.
 void JointWeight::ease(const Cycle& cycle) {
   const double sank_rad = -way() * from_set_rad_;
-  const double slower = sank_rad > kMoves_rad ? kSlowly : 1;
+  // At once: what is measured slowly comes late.
+  const double slower = -way() * cycle.from_set_rad > kMoves_rad ? kSlowly : 1;
   const double eased_Nm =
       std::min(slower * rules_.max_effort_Nm / kEases_s * cycle.dt_s, std::abs(keeps_Nm_));
   keeps_Nm_ -= way() * eased_Nm;

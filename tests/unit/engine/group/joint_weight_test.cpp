@@ -113,7 +113,7 @@ TEST_P(JointWeightOf, IsCarriedOnWhileWhatPressedBesidesIsLetGo) {
   hold_s(10);
   RecordProperty("presses_mNm", static_cast<int>(1000 * std::abs(joint.stop_Nm())));
   EXPECT_LT(std::abs(joint.stop_Nm()), 0.1) << "of " << pressed;
-  EXPECT_NEAR(joint.position_rad, place, 0.002);
+  EXPECT_NEAR(joint.position_rad, place, 0.003);
   EXPECT_LT(sank_rad(place), 0.006);
   free();
   places.clear();
@@ -142,7 +142,7 @@ TEST_P(JointWeightOf, IsNotPressedOntoWhatItLiesOn) {
   stop_below(-0.05);
   follow_s(3, up * -0.1, up * -1.0);
   ASSERT_GT(std::abs(joint.stop_Nm()), std::abs(weight_Nm()) + 1.5);
-  hold_s(10);
+  hold_s(14);
   EXPECT_LT(std::abs(joint.stop_Nm()), std::abs(weight_Nm()) + 0.05);
 }
 
