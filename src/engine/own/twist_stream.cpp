@@ -7,7 +7,7 @@
 namespace drover::engine {
 namespace {
 
-constexpr StreamWords kTwistWords{
+constexpr StreamWords kTwistStreamWords{
     .refused = "cmd_vel refused: ",
     .ended = "cmd_vel ended: ",
     .come = "messages come",
@@ -17,7 +17,7 @@ constexpr StreamWords kTwistWords{
 
 }  // namespace
 
-TwistStream::TwistStream() : Stream(kTimeout, kTwistWords) {}
+TwistStream::TwistStream() : Stream(kTimeout, kTwistStreamWords) {}
 
 void TwistStream::take(const FollowTwist& wanted, Time received, std::string_view busy, Time now) {
   const Twist& twist = wanted.twist;
