@@ -64,7 +64,8 @@ Twist aslant(double vx_mps, double wz_radps, double vy_mps) {
 bool usable(const Pose& pose) {
   constexpr double kFarthest_m = 1e7;  // beyond it sums lose millimetres
   return std::abs(pose.x_m) < kFarthest_m && std::abs(pose.y_m) < kFarthest_m &&
-         std::isfinite(pose.yaw_rad) && std::isfinite(pose.vx_mps) && std::isfinite(pose.wz_radps);
+         std::isfinite(pose.yaw_rad) && std::isfinite(pose.vx_mps) && std::isfinite(pose.vy_mps) &&
+         std::isfinite(pose.wz_radps);
 }
 
 }  // namespace

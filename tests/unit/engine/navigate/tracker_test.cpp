@@ -124,11 +124,12 @@ TEST(Tracker, GivesNoMotionForAPoseThatIsNotANumber) {
   const Path path = path_of({{0, 0}, {10, 0}});
   Tracker t = tracker();
   t.begin(path, 1, 0.5, pose_at(1, 0, 0));
-  Pose bad = pose_at(1, 0, 0);
-  bad.wz_radps = NAN;
-  const Twist twist = t.follow(bad, t.locate(bad), 1, kTick);
-  EXPECT_EQ(twist.vx_mps, 0);
-  EXPECT_EQ(twist.wz_radps, 0);
+  for (double Pose::*const part :
+       {&Pose::x_m, &Pose::y_m, &Pose::yaw_rad, &Pose::vx_mps, &Pose::vy_mps, &Pose::wz_radps}) {
+    Pose bad = pose_at(1, 0, 0);
+    bad.*part = NAN;
+    EXPECT_TRUE(is_zero(t.follow(bad, t.locate(bad), 1, kTick)));
+  }
 }
 TEST(Tracker, GivesNoMotionUnderACapOfZeroOrNoNumber) {
   const Path path = path_of({{0, 0}, {10, 0}});
