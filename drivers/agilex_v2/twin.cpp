@@ -1,6 +1,7 @@
 #include "drivers/agilex_v2/twin.h"
 
 #include "drivers/agilex_v2/chassis.h"
+#include "drivers/checked_options.h"
 
 namespace drover::agilex_v2 {
 namespace {
@@ -45,9 +46,9 @@ std::span<const OptionSpec> twin_option_table() {
 }
 
 AgilexV2Twin::AgilexV2Twin(const Options& options)
-    : wheel_radius_m_(options.number("wheel_radius_m")),
-      track_m_(options.number("track_m")),
-      max_torque_Nm_(options.number("max_torque_Nm")),
+    : wheel_radius_m_(CheckedOptions(options, kTwinOptions).number("wheel_radius_m")),
+      track_m_(CheckedOptions(options, kTwinOptions).number("track_m")),
+      max_torque_Nm_(CheckedOptions(options, kTwinOptions).number("max_torque_Nm")),
       zero_holds_(options.flag("zero_holds")) {
   state_.battery_V = kFull_V;
 }

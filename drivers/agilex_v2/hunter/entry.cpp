@@ -4,6 +4,7 @@
 
 #include "drivers/agilex_v2/driver.h"
 #include "drivers/agilex_v2/hunter/twin.h"
+#include "drivers/checked_options.h"
 
 namespace drover {
 namespace agilex_v2 {
@@ -27,7 +28,8 @@ constexpr std::array kHunterOptions{
                .text = "How far its inner wheel is steered at the most"},
 };
 
-Steering read_steering(const Options& options) {
+Steering read_steering(const Options& given) {
+  const CheckedOptions options(given, kHunterOptions);
   return {options.number("wheelbase_m"), options.number("track_m"),
           options.number("max_steering_rad")};
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "drivers/agilex_v2/chassis.h"
+#include "drivers/checked_options.h"
 
 namespace drover::agilex_v2 {
 namespace {
@@ -31,7 +32,7 @@ constexpr std::array kHunterTwinOptions{
                .default_value = 0.6,
                .min = 0.05,
                .max = 5,
-               .text = "How fast the simulated wheels are steered"},
+               .text = "How fast the simulated inner wheel is steered"},
 };
 
 }  // namespace
@@ -42,9 +43,9 @@ std::span<const OptionSpec> hunter_twin_option_table() {
 
 HunterTwin::HunterTwin(const Options& options, const Steering& steering)
     : steering_(steering),
-      wheel_radius_m_(options.number("wheel_radius_m")),
-      max_torque_Nm_(options.number("max_torque_Nm")),
-      rate_radps_(options.number("steering_rate_radps")) {
+      wheel_radius_m_(CheckedOptions(options, kHunterTwinOptions).number("wheel_radius_m")),
+      max_torque_Nm_(CheckedOptions(options, kHunterTwinOptions).number("max_torque_Nm")),
+      rate_radps_(CheckedOptions(options, kHunterTwinOptions).number("steering_rate_radps")) {
   state_.battery_V = kFull_V;
   state_.brake_locked = true;  // as it was left
 }
@@ -136,17 +137,18 @@ void HunterTwin::drive(std::span<Shaft> shafts, double speed_mps, double dt_s) {
   }
 }
 
-/// Both front wheels towards the curve of the inner one's angle.
+/// The inner wheel towards its angle, at the rate of what turns it; the outer one goes with it.
 void HunterTwin::steer(std::span<Shaft> shafts, double dt_s) {
   if (state_.mode == Mode::can && last_asked_ != kNever && !steering_stuck_) {
-    const double wanted_radpm = steering_.radpm(asked_.inner_rad);
-    const double most_radpm = rate_radps_ * dt_s / steering_.wheelbase_m;
-    radpm_ += std::clamp(wanted_radpm - radpm_, -most_radpm, most_radpm);
+    const double wanted_rad = std::clamp(asked_.inner_rad, -steering_.most_rad, steering_.most_rad);
+    const double most_rad = rate_radps_ * dt_s;
+    inner_rad_ += std::clamp(wanted_rad - inner_rad_, -most_rad, most_rad);
   }
+  const double radpm = steering_.radpm(inner_rad_);
   for (std::size_t i = 0; i < 2; ++i) {
     const double side = i == 0 ? -1 : 1;
-    const double wide = 1 + side * radpm_ * steering_.track_m / 2;
-    const double wanted_rad = std::atan(steering_.wheelbase_m * radpm_ / wide);
+    const double wide = 1 + side * radpm * steering_.track_m / 2;
+    const double wanted_rad = std::atan(steering_.wheelbase_m * radpm / wide);
     Shaft& shaft = shafts[2 + i];
     shaft.torque_Nm = std::clamp(kSteer_Nm_per_rad * (wanted_rad - shaft.position_rad) -
                                      kSteerDamping_Nms_per_rad * shaft.velocity_radps,

@@ -51,7 +51,7 @@ class HunterTwin final : public CanTwin {
   SystemState state_;
   Steered asked_;
   Time last_asked_ = kNever;
-  double radpm_ = 0;  ///< to which its wheels are steered now
+  double inner_rad_ = 0;  ///< to which its inner wheel is steered now, left positive
   /// Two motors move what four do in its sibling: a stop must not swing back.
   static constexpr Servo kServo{.integral_Nm_per_rad = 100, .proportional_Nms_per_rad = 20};
   std::array<Servo, 2> servos_{kServo, kServo};

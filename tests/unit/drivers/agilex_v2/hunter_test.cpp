@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <variant>
 #include <vector>
 
 #include "drivers/agilex_v2/driver.h"
+#include "drivers/agilex_v2/entry.h"
 #include "drivers/agilex_v2/hunter/entry.h"
 #include "drivers/agilex_v2/hunter/twin.h"
 
@@ -82,6 +86,57 @@ TEST(HunterSteering, IsThatOfTheInnerWheel) {
   EXPECT_EQ(steering.inner_rad(5), 0.576);
   EXPECT_EQ(steering.inner_rad(-5), -0.576);
   EXPECT_GT(std::abs(steering.inner_rad(0.5)), std::atan(0.65 * 0.5)) << "the middle one's";
+}
+
+/// As a motor turns it: what is told in a bend changes no faster than near straight ahead.
+TEST(HunterTwin, SteersItsInnerWheelAtItsRate) {
+  HunterBench bench;
+  bench.run(milliseconds(1000), kStand);
+  bench.run(milliseconds(1500), kDrive, {0.1, 0});
+  std::vector<double> told_rad;
+  for (int i = 0; i < 85; ++i) {
+    bench.run(milliseconds(10), kDrive, {0.1, 0.1 / 1.2});
+    told_rad.push_back(Steering().inner_rad(std::tan(bench.motion.steering_rad) / 0.65));
+  }
+  EXPECT_NEAR(told_rad.back(), 0.6 * 0.85, 0.05);
+  for (std::size_t i = 20; i < told_rad.size(); ++i)
+    ASSERT_LT(told_rad[i] - told_rad[i - 20], 0.6 * 0.2 + 0.004) << i;
+}
+
+std::unique_ptr<CanTwin> twin_of(const DriverEntry& entry, const Options& options) {
+  return std::get<std::unique_ptr<CanTwin> (*)(const Options&)>(entry.make_twin)(options);
+}
+
+/// Without the configuration's reader, too: the curve divides by them.
+TEST(HunterEntry, RefusesOptionsOutsideTheirTable) {
+  for (const char* name : {"wheelbase_m", "track_m", "max_steering_rad"})
+    for (const double bad : {0.0, -0.5, double{NAN}}) {
+      const Options options = Options(kAgilexHunterEntry.options).set(name, bad);
+      EXPECT_THROW((void)kAgilexHunterEntry.make(options, MakeContext{}), std::runtime_error)
+          << name << " " << bad;
+    }
+  for (const char* name : {"wheel_radius_m", "max_torque_Nm", "steering_rate_radps"})
+    for (const double bad : {0.0, double{NAN}}) {
+      Options options = HunterBench::options();
+      EXPECT_THROW((void)twin_of(kAgilexHunterEntry, options.set(name, bad)), std::runtime_error)
+          << name << " " << bad;
+    }
+}
+
+TEST(ScoutEntry, RefusesOptionsOfItsTwinOutsideTheirTable) {
+  std::vector<OptionSpec> all(kAgilexV2Entry.options.begin(), kAgilexV2Entry.options.end());
+  all.insert(all.end(), kAgilexV2Entry.twin_options.begin(), kAgilexV2Entry.twin_options.end());
+  EXPECT_NO_THROW((void)twin_of(kAgilexV2Entry, Options(all)));
+  for (const char* name : {"wheel_radius_m", "track_m", "max_torque_Nm"})
+    for (const double bad : {0.0, double{NAN}})
+      EXPECT_THROW((void)twin_of(kAgilexV2Entry, Options(all).set(name, bad)), std::runtime_error)
+          << name << " " << bad;
+}
+
+/// What a configuration that stands on default values says.
+TEST(HunterEntry, MakesADriverOfItsDefaults) {
+  EXPECT_NO_THROW((void)kAgilexHunterEntry.make(HunterBench::options(), MakeContext{}));
+  EXPECT_NO_THROW((void)twin_of(kAgilexHunterEntry, HunterBench::options()));
 }
 
 TEST(HunterCodec, ReadsTheMakersExamples) {
@@ -194,6 +249,42 @@ TEST(Hunter, IsNotSentMotionWhileItsBrakeIsStuck) {
   bench.run(milliseconds(3000), kDrive, {0.5, 0});
   EXPECT_EQ(bench.status.state, AxisState::arming);
   EXPECT_EQ(bench.first_motion(), bench.sent.size());
+}
+
+/// It asks for the lock, and goes without it: nobody is kept in command by a brake.
+TEST(Hunter, IsLetGoAfterAMomentThoughItsBrakeNeverTellsThatItIsLocked) {
+  AgilexV2Driver driver(0, Steering{});
+  Time now{std::chrono::seconds(1)};
+  const auto hear_released = [&](DriverOut& out) {
+    driver.on_frame(steered_motion_frame({0, 0}), now, out);
+    SystemState state;
+    state.mode = Mode::can;
+    driver.on_frame(system_state_frame(state, 0, Model::hunter), now, out);
+  };
+  const auto cycle = [&](AxisRequest request) {
+    now += milliseconds(10);
+    DriverOut out;
+    hear_released(out);
+    const Setpoint setpoint{request, 0, {}};
+    driver.on_setpoints({&setpoint, 1}, now, out);
+    driver.on_tick(now, out);
+    return out;
+  };
+  for (int i = 0; i < 100; ++i) (void)cycle(kDrive);
+  const Time asked = now;
+  Time locked = kNever;
+  Time left = kNever;
+  while (now - asked < milliseconds(2000)) {
+    for (const CanFrame& frame : cycle(AxisRequest::idle).frames) {
+      if (locked == kNever && read_brake_command(frame) == true) locked = now;
+      if (left == kNever && read_mode_command(frame) == Mode::standby) left = now;
+    }
+  }
+  ASSERT_NE(locked, kNever);
+  ASSERT_NE(left, kNever) << "for ever";
+  EXPECT_LT(locked, left);
+  EXPECT_GT(left - asked, milliseconds(590));
+  EXPECT_LT(left - asked, milliseconds(650));
 }
 
 TEST(Hunter, NamesTheRemoteControlByItsOwnNumber) {
