@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
         "arm_faults", "arm_hung", "arm_sinks", "arm_holds", "arm_steps", "arm_push", "arm_kill",
         "scout_arm", "scout_arm_kill", "scout_arm_bus", "scout_arm_bus_late", "scout_arm_estop",
         "cubemars_arm", "cubemars_arm_kill", "arm_trust", "arm_mirrored", "arm_release",
-        "arm_presses", "two_arms", "mecanum_torn_stuck", "mecanum_sideways_torn",
+        "arm_presses", "arm_silence", "two_arms", "mecanum_torn_stuck", "mecanum_sideways_torn",
         "mecanum_turns_torn", "mecanum_every_way", "hunter", "hunter_kill", "hunter_stuck",
         "hunter_backs", "hunter_kill_in_bend", "hunter_unfed", "robomaster_stuck",
         "robomaster_mute", "robomaster", "robomaster_silent", "robomaster_kill", "mecanum",
