@@ -305,7 +305,7 @@ void visit(V& v, BaseNames& c) {
       "is left to keep the track",
       Presence::of_kind);
   v.number("steering_rate_radps", c.base->steering_rate_radps, Range{0.05, 5},
-           "ackermann: how fast its wheels are steered at least", Presence::of_kind);
+           "ackermann: how fast its inner wheel is steered at least", Presence::of_kind);
   v.number("yaw_slip_factor", c.base->yaw_slip_factor, Range{0.5, 4},
            "how much wider than track_m the base behaves when it turns; refined while driving");
   v.choice("hold", c.hold, {"brake", "worm_gear", "level_ground_only"},

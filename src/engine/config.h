@@ -45,7 +45,7 @@ struct BaseConfig {
   double wheelbase_m = 0.65;  ///< between the axles, of a base that steers or goes sideways
   // Of a base that steers. The angle is that of the inner wheel, as makers tell it.
   double max_steering_rad = 0.5;     ///< the most that is asked, so that a little is left
-  double steering_rate_radps = 0.4;  ///< how fast its wheels are turned at least
+  double steering_rate_radps = 0.4;  ///< how fast that wheel is turned at least
   /// How much wider than `track_m` the base behaves when it turns, because wheels skid.
   /// The estimate refines it while driving.
   double yaw_slip_factor = 1.0;

@@ -22,8 +22,8 @@ void Engine::Impl::take_body(const BodyMotion& body, Time time) {
 }
 
 double Engine::Impl::steered_radpm() const {
-  const auto* const steered = std::get_if<Ackermann>(&base);
-  return steered == nullptr ? kAbsent : curvature_radpm(steered->wheelbase_m, steering_rad);
+  const double wheelbase_m = steered_wheelbase_m(base);
+  return wheelbase_m > 0 ? curvature_radpm(wheelbase_m, steering_rad) : kAbsent;
 }
 
 void Engine::Impl::fill_base(const Environment& environment, const BaseCommand& command) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "engine/base/kinematics.h"
 #include "publish/cli_outlet.h"
 #include "publish/ros2_outlet.h"
 #include "publish/status/seen.h"
@@ -116,7 +117,7 @@ PublishLoop::PublishLoop(const config::DroverConfig& config, ControlExchange& co
           return turns;
         },
         publish::Ros2Inputs{config.ros2.inputs.cmd_vel != "closed",
-                            config.engine.base.kind == engine::BaseKind::mecanum,
+                            engine::limits(engine::kinematics_of(config.engine.base)).sideways,
                             config.ros2.inputs.joint_command ? &joint_commands_ : nullptr,
                             &scene_outlet_->topics(), config.ros2.inputs.collision_object,
                             config.ros2.inputs.planning_constraints}));

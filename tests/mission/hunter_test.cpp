@@ -1,6 +1,9 @@
 // A chassis that steers, as an AgileX Hunter speaks.
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <string>
+#include <utility>
 
 #include "mission/support.h"
 #include "mission/wire_twist.h"
@@ -99,6 +102,34 @@ TEST(HunterBacks, IsDrivenAsItWasRecordedWithTwoMetresBackedUp) {
   EXPECT_LT(fastest_back_mps, 0.22);
   EXPECT_LT(drive.rms_m, 0.015);
   EXPECT_LT(drive.goal_m, 0.05);
+}
+
+/// What its inner wheel is told, against what was configured of it: 0.5 rad/s.
+void expect_steered_within_its_rate(const std::string& mission) {
+  constexpr Duration kWindow = 200ms;
+  constexpr double kConfigured_radps = 0.5;
+  constexpr double kLastDigit_rad = 0.001;
+  const Record& log = record(mission);
+  std::deque<std::pair<Time, double>> window;
+  double most_rad = 0;
+  for (const CanLine& line : log.can) {
+    const auto told_rad = hunter::steering_rad(line.frame);
+    if (!told_rad) continue;
+    window.emplace_back(line.time, *told_rad);
+    while (line.time - window.front().first > kWindow + 1ms) window.pop_front();
+    most_rad = std::max(most_rad, std::abs(*told_rad - window.front().second));
+  }
+  figure("steered at most", most_rad / to_s(kWindow), "rad/s");
+  EXPECT_GT(most_rad, 0.5 * kConfigured_radps * to_s(kWindow)) << "it was hardly steered";
+  EXPECT_LT(most_rad, kConfigured_radps * to_s(kWindow + 1ms) + 2 * kLastDigit_rad);
+}
+
+TEST(Hunter, IsNotToldToSteerFasterThanItCan) {
+  expect_steered_within_its_rate("hunter");
+}
+
+TEST(HunterBacks, IsNotToldToSteerFasterThanItCan) {
+  expect_steered_within_its_rate("hunter_backs");
 }
 
 /// The guard's frames say straight ahead and no speed: its wheels turn as it stops.

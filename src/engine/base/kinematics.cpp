@@ -39,10 +39,6 @@ TwoSides edges(double width_m) {
   return sides;
 }
 
-bool rolls_in_turns(const Kinematics& base) {
-  return std::holds_alternative<Differential>(base) || std::holds_alternative<Ackermann>(base);
-}
-
 /// What is as slow as an encoder at rest is rest, as for wheels.
 BodyMotion at_rest(const Kinematics& base, BodyMotion motion) {
   motion.standing = motion.known && fastest_mps(base, motion.twist) < kEncoderRest_mps;
@@ -77,9 +73,22 @@ BodyLimits limits(const Kinematics& base) {
   limits.pivots = false;
   limits.smallest_radius_m =
       steered->sides.track_m / 2 + steered->wheelbase_m / std::tan(steered->max_steering_rad);
-  // It is least straight ahead.
-  limits.curvature_rate_radpms = steered->steering_rate_radps / steered->wheelbase_m;
+  // By how much the inner wheel is steered for a change of the curve: wheelbase / ((1 - half track
+  // * curvature)^2 + (wheelbase * curvature)^2), and most where that is least.
+  const double wheelbase_m = steered->wheelbase_m;
+  const double half_track_m = steered->sides.track_m / 2;
+  limits.curvature_rate_radpms = steered->steering_rate_radps * wheelbase_m /
+                                 (wheelbase_m * wheelbase_m + half_track_m * half_track_m);
   return limits;
+}
+
+bool rolls_in_turns(const Kinematics& base) {
+  return std::holds_alternative<Differential>(base) || std::holds_alternative<Ackermann>(base);
+}
+
+double steered_wheelbase_m(const Kinematics& base) {
+  const auto* const steered = std::get_if<Ackermann>(&base);
+  return steered == nullptr ? 0 : steered->wheelbase_m;
 }
 
 double steering_rad(double wheelbase_m, double curvature_radpm) {

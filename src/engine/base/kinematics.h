@@ -32,7 +32,7 @@ struct Ackermann {
   TwoSides sides;
   double wheelbase_m = 0;
   double max_steering_rad = 0;     ///< of the inner wheel
-  double steering_rate_radps = 0;  ///< at least
+  double steering_rate_radps = 0;  ///< of the inner wheel, at least
 };
 using Kinematics = std::variant<SkidSteer, Differential, TwistBase, Ackermann, Mecanum>;
 
@@ -44,7 +44,7 @@ struct BodyLimits {
   bool pivots = true;            ///< it turns on the spot
   bool sideways = false;         ///< it goes sideways
   double smallest_radius_m = 0;  ///< of the curve of base_link
-  /// How fast the curvature changes; infinite: as fast as the speeds do.
+  /// How fast the curvature changes, whatever it is; infinite: as fast as the speeds do.
   double curvature_rate_radpms = std::numeric_limits<double>::infinity();
 
   double most_radpm() const {
@@ -52,6 +52,11 @@ struct BodyLimits {
   }
 };
 BodyLimits limits(const Kinematics& base);
+
+/// Its wheels roll in a turn: they do not skid.
+bool rolls_in_turns(const Kinematics& base);
+/// Between the axles of a base that steers; 0: it does not.
+double steered_wheelbase_m(const Kinematics& base);
 
 /// Of a base that steers: the angle of a wheel in the middle of its steered axle, and back.
 double steering_rad(double wheelbase_m, double curvature_radpm);

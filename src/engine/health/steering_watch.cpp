@@ -14,11 +14,8 @@ const double kSteeredAside_rad = to_rad(6.0);
 }  // namespace
 
 SteeringWatch::SteeringWatch(const EngineConfig& config)
-    : limit_s_(config.health.follow_timeout_s) {
-  const Kinematics base = kinematics_of(config.base);
-  if (const auto* const steered = std::get_if<Ackermann>(&base))
-    wheelbase_m_ = steered->wheelbase_m;
-}
+    : limit_s_(config.health.follow_timeout_s),
+      wheelbase_m_(steered_wheelbase_m(kinematics_of(config.base))) {}
 
 void SteeringWatch::update(Time now, Duration dt, const Twist& commanded, double measured_rad) {
   reason_.clear();

@@ -36,12 +36,12 @@ double Swing::way_m(const BaseConfig& base, double first_m) {
   return std::max(first_m, kSwing_rad / (kSwingShare * kSwingCurve * body.most_radpm()));
 }
 
-Swing::Swing(const BaseConfig& base, double first_m) : first_m_(first_m) {
-  const bool pivots = limits(kinematics_of(base)).pivots;
-  const bool rolls = base.kind == BaseKind::differential || base.kind == BaseKind::ackermann;
+Swing::Swing(const BaseConfig& config, double first_m) : first_m_(first_m) {
+  const Kinematics base = kinematics_of(config);
+  const bool pivots = limits(base).pivots;
   most_asked_rad_ = pivots ? kMostAsked_rad : kMostAskedOnCurves_rad;
   most_more_ = pivots ? kMostMore : 1.0;
-  least_share_ = rolls ? kLeastOfRolling : kLeastOfSkidding;
+  least_share_ = rolls_in_turns(base) ? kLeastOfRolling : kLeastOfSkidding;
 }
 
 void Swing::begin() {

@@ -23,7 +23,7 @@ struct SwingInput {
 class Swing final {
  public:
   /// Over a way of `first_m`, where the robot turns as it is asked to.
-  Swing(const BaseConfig& base, double first_m);
+  Swing(const BaseConfig& config, double first_m);
 
   /// The way that a base which turns on curves only needs for it; otherwise `first_m`.
   static double way_m(const BaseConfig& base, double first_m);

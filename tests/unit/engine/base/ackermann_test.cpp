@@ -1,6 +1,7 @@
 // What the engine asks of a base that steers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/kinematics.h"
@@ -35,10 +36,32 @@ TEST_F(ABaseThatSteers, TakesATwistAndHasNoJoints) {
 
 TEST_F(ABaseThatSteers, HasASmallestRadiusByItsInnerWheel) {
   EXPECT_NEAR(body.smallest_radius_m, 0.3 + 0.65 / std::tan(0.5), 1e-9);
-  EXPECT_NEAR(body.curvature_rate_radpms, 0.4 / 0.65, 1e-9);
   BaseConfig other;
   EXPECT_TRUE(limits(kinematics_of(other)).pivots);
   EXPECT_EQ(limits(kinematics_of(other)).smallest_radius_m, 0);
+}
+
+/// Of the wheel that is steered furthest and fastest, whose own curve is narrower by half the
+/// track.
+double inner_rad(const BaseConfig& base, double curvature_radpm) {
+  return std::atan(base.wheelbase_m * curvature_radpm / (1 - base.track_m / 2 * curvature_radpm));
+}
+
+TEST_F(ABaseThatSteers, ChangesItsCurveNoFasterThanItsInnerWheelIsSteered) {
+  for (const double track_m : {0.1, 0.6, 1.2}) {
+    BaseConfig config = steered();
+    config.track_m = track_m;
+    const BodyLimits of_it = limits(kinematics_of(config));
+    constexpr double kStep_s = 1e-4;
+    double fastest_radps = 0;
+    for (double radpm = 0; radpm < of_it.most_radpm(); radpm += 1e-3) {
+      const double next_radpm = radpm + kStep_s * of_it.curvature_rate_radpms;
+      const double turned_rad = inner_rad(config, next_radpm) - inner_rad(config, radpm);
+      fastest_radps = std::max(fastest_radps, turned_rad / kStep_s);
+    }
+    EXPECT_LE(fastest_radps, config.steering_rate_radps * (1 + 1e-6)) << track_m;
+    EXPECT_GT(fastest_radps, config.steering_rate_radps * 0.9) << "slower than it could";
+  }
 }
 
 TEST_F(ABaseThatSteers, IsAskedForNoTighterCurveWhateverTheGateLetPass) {
