@@ -14,7 +14,9 @@ constexpr Duration kGap = milliseconds(400);
 /// Two of its states long: then its mode is one from after the gap.
 constexpr Duration kZerosAfterGap = milliseconds(200);
 
-constexpr double kSlowest_mps = 0.001;  // less is none on the wire
+/// Of speeds that are nearly zero the one divided by the other is no curve; nor is it while a base
+/// is caught, whose speeds fall one by one.
+constexpr double kSlowestCurve_mps = 0.01;
 /// Of a Hunter. It rests for so long before its brake is locked: what still rolls is not thrown
 /// into it.
 constexpr Duration kStillBeforeBrake = milliseconds(300);
@@ -104,20 +106,27 @@ bool AgilexV2Driver::may_move(Time now) const {
          status(now).state == AxisState::running;
 }
 
-/// At rest, and on its way there, a Hunter's wheels stay as they were told; as they are, where
-/// somebody else steered them meanwhile.
 void AgilexV2Driver::command(const Twist& twist, Time now, DriverOut& out) {
-  if (!steering_) {
-    out.send(motion_command(twist));
-  } else {
-    if (std::abs(twist.vx_mps) >= kSlowest_mps) {
-      asked_inner_rad_ = steering_->inner_rad(twist.wz_radps / twist.vx_mps);
-    } else if (status(now).state != AxisState::running) {
-      asked_inner_rad_ = inner_rad_;
-    }
+  if (steering_) {
+    steer(twist, now);
     out.send(steered_command({twist.vx_mps, asked_inner_rad_}));
+  } else {
+    out.send(motion_command(twist));
   }
   last_command_ = now;
+}
+
+/// A Hunter is steered by who drives it. At rest, and on its way there, its wheels stay as they
+/// were when that ended: what it was asked last it may never have been told. As they are, where
+/// somebody else steers them meanwhile.
+void AgilexV2Driver::steer(const Twist& twist, Time now) {
+  const bool drives = request_ == AxisRequest::run && std::abs(twist.vx_mps) >= kSlowestCurve_mps;
+  if (drives) {
+    asked_inner_rad_ = steering_->inner_rad(twist.wz_radps / twist.vx_mps);
+  } else if (was_steered_ || status(now).state != AxisState::running) {
+    asked_inner_rad_ = inner_rad_;
+  }
+  was_steered_ = drives;
 }
 
 void AgilexV2Driver::ask_for(Mode mode, Time now, DriverOut& out) {

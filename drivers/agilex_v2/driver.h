@@ -53,6 +53,7 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   bool may_move(Time now) const;
   bool at_rest(Time now) const;
   void command(const Twist& twist, Time now, DriverOut& out);
+  void steer(const Twist& twist, Time now);
   void ask_for(Mode mode, Time now, DriverOut& out);
   bool mind_brake(Time now, DriverOut& out);
 
@@ -81,6 +82,7 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   // Of a Hunter.
   double inner_rad_ = 0;        ///< as its wheels are steered
   double asked_inner_rad_ = 0;  ///< as they are told to be
+  bool was_steered_ = false;    ///< by the command before
   Time still_since_ = kNever;   ///< it rests, and nobody asks it to move
   Time asked_since_ = kNever;   ///< this request
   Time last_brake_command_ = kNever;

@@ -223,6 +223,72 @@ TEST(Hunter, LeavesTheAngleThatItIsFoundAt) {
   EXPECT_NEAR(read_steered_command(out.frames[0])->inner_rad, 0.25, 0.0011);
 }
 
+/// A chassis as it says it is, and the angle that it is told.
+struct SaidBench {
+  /// Each with a motion; the mode comes with the state.
+  void cycle(const Setpoint& wanted) {
+    now += milliseconds(10);
+    DriverOut out;
+    driver.on_frame(make_frame(kSystemStateId, {0, mode, 1, 9, 0, 0, 0, 0}), now, out);
+    driver.on_frame(steered_motion_frame(said), now, out);
+    driver.on_setpoints({&wanted, 1}, now, out);
+    for (const CanFrame& frame : out.frames)
+      if (const auto command = read_steered_command(frame)) told = *command;
+  }
+  void run(int cycles, AxisRequest request, const Twist& twist = {}) {
+    for (int i = 0; i < cycles; ++i) cycle({request, 0, twist});
+  }
+  AgilexV2Driver driver{0, Steering{}};
+  Time now{std::chrono::seconds(1)};
+  std::uint8_t mode = 1;
+  Steered said{0, 0.235};
+  Steered told{};
+};
+
+/// It was left by a remote control in a bend, and is caught while it still rolls: the speeds of a
+/// catch fall one by one, and are no curve.
+TEST(Hunter, LeavesItsWheelsAsTheyAreWhileItIsCaught) {
+  SaidBench bench;
+  bench.run(30, kDrive, {0.5, 0.25});
+  bench.mode = 2;
+  bench.run(30, kDrive, {0.5, 0.25});
+  bench.said = {-0.018, 0.241};
+  bench.run(10, kStand);
+  bench.mode = 1;
+  for (const Twist& twist : {Twist{-0.015, -0.02}, Twist{-0.012, -0.02}, Twist{-0.002, -0.02}}) {
+    bench.cycle({AxisRequest::hold, 0, twist});
+    EXPECT_NEAR(bench.told.speed_mps, twist.vx_mps, 0.0011);
+    EXPECT_NEAR(bench.told.inner_rad, 0.241, 0.0011);
+  }
+  bench.run(30, kStand);
+  EXPECT_EQ(bench.told.speed_mps, 0);
+  EXPECT_NEAR(bench.told.inner_rad, 0.241, 0.0011);
+}
+
+TEST(Hunter, MakesNoAngleFromATwistThatIsNearlyZero) {
+  SaidBench bench;
+  bench.run(30, kDrive, {0.5, 0.25});
+  const double bend_rad = Steering().inner_rad(0.5);
+  ASSERT_NEAR(bench.told.inner_rad, bend_rad, 0.0011);
+  bench.said = {0.01, bend_rad};
+  for (const Twist& twist : {Twist{0.004, 0.02}, Twist{0.002, -0.02}, Twist{-0.003, 0.02}}) {
+    bench.cycle({kDrive, 0, twist});
+    EXPECT_NEAR(bench.told.inner_rad, bend_rad, 0.0011) << twist.vx_mps;
+  }
+}
+
+/// The engine refuses what may not leave; at rest its angle would leave after it.
+TEST(Hunter, ForgetsAnAngleThatItsWheelsWereNotTold) {
+  SaidBench bench;
+  bench.run(30, kDrive, {0.5, 0.11});
+  bench.run(10, kDrive, {0.1, 0.06});  // nothing of this is followed
+  bench.run(20, kStand);
+  EXPECT_NEAR(bench.told.inner_rad, 0.235, 0.0011);
+  bench.said.inner_rad = 0.234;  // of its last digit nothing is made
+  bench.run(20, kStand);
+  EXPECT_NEAR(bench.told.inner_rad, 0.235, 0.0011);
+}
+
 /// A Hunter SE goes on by itself with the first command after a silence.
 TEST(Hunter, DoesNotGoOnAfterASilence) {
   HunterBench bench;
