@@ -11,6 +11,9 @@ namespace {
 using std::chrono::milliseconds;
 constexpr Duration kAskEach = milliseconds(100);
 constexpr Duration kSetUpAgain = milliseconds(2000);
+constexpr int kFeedsInSilence = 4;  ///< of its time-out
+/// To write an object and to read it back, a cycle of 5 ms for either.
+constexpr Duration kStepTakes = milliseconds(10);
 constexpr Duration kStepEach = milliseconds(20);
 /// A status that was under way when the request left tells nothing of it.
 constexpr Duration kSettle = milliseconds(20);
@@ -113,6 +116,24 @@ void Zlac8015dDriver::begin_setup(bool booted, Time now) {
   last_speeds_ = last_status_ = kNever;
   positions_known_ = false;
   emergency_ = 0;
+  if (booted) may_hold_ = false;
+}
+
+/// Its answers alone may be lost: a drive that holds the robot would let go by its time-out. Not
+/// one that a person let go of.
+void Zlac8015dDriver::feed_blindly(Time now, DriverOut& out) {
+  if (request_ == AxisRequest::idle && now - phase_since_ > kIdleAtLast) may_hold_ = false;
+  const Duration part = milliseconds(settings_.silence_ms) / kFeedsInSilence;
+  const Duration each =
+      part > Duration{} ? std::clamp<Duration>(part, kStepTakes, kAskEach) : kAskEach;
+  const bool answers = now - heard_.last_alive < each && !setup_.failed();
+  if (!may_hold_ || answers) return;
+  if (link_ == Link::silent) send_targets({}, now, false, out);
+  // Whose set-up was not ended takes targets by its service channel alone; this asks it, too.
+  if (now < next_question_) return;
+  next_question_ = now + each;
+  out.send(canopen::encode_sdo_write(settings_.node, {canopen::kTargetVelocity, kSubs[0]},
+                                     canopen::i32(0)));
 }
 
 /// From silence to a node whose every object was read back and that says so.
@@ -128,12 +149,14 @@ void Zlac8015dDriver::keep_link(Time now, DriverOut& out) {
     begin_setup(false, now);
   switch (link_) {
     case Link::silent:
+      feed_blindly(now, out);
       // It may have been started long ago and say nothing unless it is asked.
       if (now < next_question_) return;
       next_question_ = now + kAskEach;
       out.send(canopen::encode_sdo_read(settings_.node, {canopen::kStatusword, 0}));
       return;
     case Link::setting_up:
+      feed_blindly(now, out);
       if (const auto frame = setup_.on_tick(now)) out.send(*frame);
       if (!setup_.done()) return;
       link_ = Link::starting;

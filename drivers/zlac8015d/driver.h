@@ -3,7 +3,7 @@
 // One controlword is for both, so they arm and stop together. The node is set up anew whenever it
 // may have lost its power, and nothing that it says is believed before. It arms only by a new
 // request to run. Targets of zero are sent in every state once it is set up: they feed its
-// time-out.
+// time-out. So they are in silence, to one that may hold the robot.
 #pragma once
 
 #include "drivers/canopen/emcy.h"
@@ -65,6 +65,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   void lock(std::string_view why);
   void begin_setup(bool booted, Time now);
   void keep_link(Time now, DriverOut& out);
+  void feed_blindly(Time now, DriverOut& out);
   void take(AxisRequest request, Time now);
   void start_arming(Time now);
   void follow_status(Time now);
@@ -90,6 +91,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   Link link_ = Link::silent;
   Time link_since_ = kNever;
   Time next_question_ = kNever;
+  bool may_hold_ = false;  ///< by what it said last, or by what it was told since
   Heard heard_;
   Time last_speeds_ = kNever;
   Time last_status_ = kNever;

@@ -109,6 +109,7 @@ void Zlac8015dDriver::on_heartbeat(canopen::NodeState state, Time received) {
 void Zlac8015dDriver::on_status(const Status& status, Time received) {
   status_ = status;
   last_status_ = received;
+  may_hold_ = is_powered(status) || attempts_to_run();
   if (link_ == Link::ready) follow_status(received);
 }
 
