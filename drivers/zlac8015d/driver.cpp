@@ -126,8 +126,7 @@ void Zlac8015dDriver::feed_blindly(Time now, DriverOut& out) {
   const Duration part = milliseconds(settings_.silence_ms) / kFeedsInSilence;
   const Duration each =
       part > Duration{} ? std::clamp<Duration>(part, kStepTakes, kAskEach) : kAskEach;
-  const bool answers = now - heard_.last_alive < each && !setup_.failed();
-  if (!may_hold_ || answers) return;
+  if (!may_hold_ || now - last_answer_ < each) return;
   if (link_ == Link::silent) send_targets({}, now, false, out);
   // Whose set-up was not ended takes targets by its service channel alone; this asks it, too.
   if (now < next_question_) return;
@@ -295,7 +294,7 @@ void Zlac8015dDriver::on_tick(Time now, DriverOut& out) {
 }
 
 void Zlac8015dDriver::on_link_up(Time now) {
-  heard_.last_alive = last_speeds_ = last_status_ = kNever;
+  heard_.last_alive = last_answer_ = last_speeds_ = last_status_ = kNever;
   link_ = Link::silent;
   next_question_ = now;
   status_ = {};

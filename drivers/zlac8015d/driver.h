@@ -93,6 +93,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   Time next_question_ = kNever;
   bool may_hold_ = false;  ///< by what it said last, or by what it was told since
   Heard heard_;
+  Time last_answer_ = kNever;  ///< by its service channel
   Time last_speeds_ = kNever;
   Time last_status_ = kNever;
   Status status_;

@@ -56,7 +56,7 @@ bool Zlac8015dDriver::on_reply(const CanFrame& frame, Time received, DriverOut& 
   }
   if (frame.id == id_of(Cob::sdo_answer, settings_.node)) {
     if (!canopen::decode_sdo_answer(frame, settings_.node)) return false;
-    heard_.last_alive = received;
+    heard_.last_alive = last_answer_ = received;
     if (link_ == Link::silent) begin_setup(false, received);
     if (link_ == Link::setting_up)
       if (const auto next = setup_.on_frame(frame, received)) out.send(*next);
