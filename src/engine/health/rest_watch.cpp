@@ -249,8 +249,11 @@ void RestWatch::settle(const RestInput& input, const RimMotion& rims, const Test
 void RestWatch::stay(const RestInput& input, const RimMotion& rims, const Testimony& said) {
   if (others_say_so(input, rims, said) || history_.rolls(input.now)) {
     state_ = history_.turns() ? RestState::rolling : RestState::carried;
-    tell(history_.turns() ? "the robot rolls without a command" : "the robot is pushed or carried",
-         rims, said);
+    // Drives that are silent may have let go: a person was not seen.
+    const bool may_roll = rims.silent && !rims.heard && !input.power_is_off && !input.released;
+    const char* moves =
+        may_roll ? "the robot moves without a command" : "the robot is pushed or carried";
+    tell(history_.turns() ? "the robot rolls without a command" : moves, rims, said);
     moves_since_ = input.now;
     quiet_since_ = kNever;
     return;

@@ -20,6 +20,31 @@ TEST_F(ARobotThatShouldRest, ThatIsCarriedAwayIsToldAndNotCut) {
   EXPECT_THAT(rig.why(), ::testing::Not(HasSubstr("carried")));
 }
 
+/// They may have let go of it: a person was not seen.
+TEST_F(ARobotThatShouldRest, ThatMovesWhileItsDrivesAreSilentIsNotSaidToBePushed) {
+  drive();
+  rig.command(CancelTask{});
+  rest_s(4);
+  for (auto& drive : rig.drives) drive.silent = true;
+  rig.carried = kRollsBack;
+  rest_s(5);
+  EXPECT_THAT(told(), HasSubstr("moves without a command: the wheels are silent"));
+  EXPECT_THAT(told(), ::testing::Not(HasSubstr("pushed or carried")));
+}
+
+/// Nor are they heard when the e-stop took their power.
+TEST_F(ARobotThatShouldRest, ThatIsPushedWithoutItsPowerIsSaidToBe) {
+  drive();
+  rig.command(CancelTask{});
+  rest_s(4);
+  rig.lines[static_cast<std::size_t>(Line::estop)] = true;
+  for (auto& drive : rig.drives) drive.silent = true;
+  rig.run_s(1);
+  rig.carried = kRollsBack;
+  rig.run_s(5);
+  EXPECT_THAT(told(), HasSubstr("pushed or carried: the wheels are silent"));
+}
+
 TEST_F(ARobotThatShouldRest, ThatIsPushedSoThatItsWheelsTurnIsToldAndNotCut) {
   drive();
   rig.command(CancelTask{});

@@ -145,7 +145,7 @@ TEST_F(ABaseThatTakesATwist, LosesItsPowerWhenAPersonStopsItWhileItDrivesByItsel
   rig.run_s(1);
   rig.disobeys = WheelSpeeds{2, 2};
   rig.run_s(3);
-  ASSERT_THAT(told(), HasSubstr("pushed or carried"));
+  ASSERT_THAT(told(), HasSubstr("moves without a command: the base is silent"));
   ASSERT_TRUE(has_power());
   rig.command(EngageStop{});
   rig.run_s(3);
