@@ -94,15 +94,14 @@ void CubemarsDriver::leave(Duration period, Time now, DriverOut& out) {
 /// be on is made to damp, though nobody hears it: it may obey and only its answers be lost.
 void CubemarsDriver::keep_alive(Time now, DriverOut& out) {
   if (listening_since_ == kNever) listening_since_ = now;
-  if (heard_.last_good == kNever) {
-    if (now - listening_since_ >= kListen) leave(kSearch, now, out);
-    return;
-  }
+  const bool listens = power_ == Power::leaving && leaving_since_ == kNever;
+  if (listens && now - listening_since_ < kListen) return;
   const Time since = heard_.last_alive == kNever ? listening_since_ : heard_.last_alive;
   if (power_ == Power::unknown && now - since > kGivenUp) let_go(now);
   const bool stays_off = power_ == Power::leaving || power_ == Power::off;
   if (stays_off) return leave(silent(now) ? kSearch : kPoll, now, out);
-  send_command(damp_, now, out);
+  // One that was never heard needs no more than the guard's frames.
+  if (heard_.last_good != kNever || !guard_.goes_on(now)) send_command(damp_, now, out);
 }
 
 /// The first thing that it follows is damping: what it was told before it was off may still stand

@@ -110,6 +110,7 @@ class CubemarsDriver final : public Device, public FrameFace, public Actuator {
   Time leaving_since_ = kNever;    ///< the first frame of it
   Time listening_since_ = kNever;  ///< for who else may feed it
   Time last_sent_ = kNever;
+  mit::OthersDamping guard_;
   bool moving_ = false;  ///< the last command was no stop
 
   ToldStatus told_;

@@ -29,9 +29,13 @@ void CubemarsDriver::on_frame(const CanFrame& frame, Time received, DriverOut& o
   on_feedback(*feedback, received, out);
 }
 
-/// Somebody else commands it. The guard is welcome.
+/// Somebody else commands it. The guard is welcome, and what it makes damp may be on.
 void CubemarsDriver::on_command(const CanFrame& frame, Time received) {
-  if (is_of_recipe(frame, recipe_)) return;
+  if (is_of_recipe(frame, recipe_)) {
+    guard_.heard(received);
+    if (power_ == Power::leaving && leaving_since_ == kNever) power_ = Power::unknown;
+    return;
+  }
   foreign_.on_frame(frame.id, received);
   const auto special = mit::decode_special(frame, settings_.joint.id);
   if (special && (*special == Special::enable || power_ == Power::on)) power_ = Power::unknown;

@@ -12,6 +12,10 @@ constexpr Duration kPoll = milliseconds(10);
 /// Of a motor that was never heard: perhaps nobody is on the bus, and nothing is acknowledged.
 constexpr Duration kSearch = milliseconds(100);
 
+bool is_due(Time last, Duration period, Time now) {
+  return last == kNever || now - last >= period;
+}
+
 }  // namespace
 
 DamiaoDriver::DamiaoDriver(const Settings& settings, AxisId axis)
@@ -75,13 +79,28 @@ void DamiaoDriver::send_command(const CanFrame& frame, Time now, DriverOut& out)
 /// Each frame brings one feedback. What is surely off is asked; what is not is made to damp, though
 /// nobody hears it: it may obey and only its answers be lost.
 void DamiaoDriver::keep_alive(Time now, DriverOut& out) {
-  const bool never = heard_.last_alive == kNever;
+  if (heard_.last_alive == kNever) return look_for_it(now, out);
   const bool off = !silent(now) && !feedback_.enabled();
-  if (!never && !off) return send_command(damp_, now, out);
-  const Duration period = never ? kSearch : kPoll;
-  if (last_sent_ != kNever && now - last_sent_ < period) return;
+  if (!off) return send_command(damp_, now, out);
+  if (!is_due(last_sent_, kPoll, now)) return;
   last_sent_ = now;
   moving_ = false;
+  out.send(encode_request(settings_.id));
+}
+
+/// It may have held a weight before this program began, or before the link was lost, and obey
+/// though its answers do not come: a question would leave it to its time-out, which lets go. Damping
+/// enables nothing, and its zeros are zeros in every range. Who wants it let go gets that.
+void DamiaoDriver::look_for_it(Time now, DriverOut& out) {
+  const bool damps = phase_ != Phase::idling && !guard_.goes_on(now);
+  if (damps && is_due(last_sent_, kPoll, now)) {
+    last_sent_ = now;
+    out.send(damp_);
+  }
+  moving_ = false;
+  // One that is in another mode answers to nothing else.
+  if (!is_due(last_sought_, kSearch, now)) return;
+  last_sought_ = now;
   out.send(encode_request(settings_.id));
 }
 
@@ -178,7 +197,7 @@ void DamiaoDriver::on_link_up(Time) {
   heard_.last_alive = kNever;
   heard_since_ = kNever;
   feedback_ = {};
-  last_sent_ = kNever;
+  last_sent_ = last_sought_ = kNever;
   moving_ = false;
   setup_.forget();
   if (arms(request_)) lock("the link was lost while armed");

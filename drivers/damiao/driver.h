@@ -71,6 +71,7 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   void look_at_arming(Time now);
   void arm(Time now, DriverOut& out);
   void keep_alive(Time now, DriverOut& out);
+  void look_for_it(Time now, DriverOut& out);
   void send_command(const CanFrame& frame, Time now, DriverOut& out);
 
   Settings settings_;
@@ -105,6 +106,8 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   bool fault_ = false;        ///< `lock_reason_` says which
   Reason lock_reason_;
   Time last_sent_ = kNever;
+  Time last_sought_ = kNever;  ///< by a question, since the link came up
+  mit::OthersDamping guard_;
   bool moving_ = false;  ///< the last command was no stop
 
   ToldStatus told_;

@@ -35,7 +35,7 @@ void DamiaoDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out
 
 /// Somebody else commands it. The guard is welcome.
 void DamiaoDriver::on_command(const CanFrame& frame, Time received) {
-  if (is_of_recipe(frame, recipe_)) return;
+  if (is_of_recipe(frame, recipe_)) return guard_.heard(received);
   foreign_.on_frame(frame.id, received);
   if (attempts_to_run()) lock(foreign_.text().view());
 }

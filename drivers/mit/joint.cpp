@@ -24,7 +24,7 @@ StopRecipe Joint::stop_recipe() const {
   StopRound round;
   static_cast<void>(round.frames.push_back(damp_frame()));
   static_cast<void>(recipe.rounds.push_back(round));
-  recipe.period = std::chrono::milliseconds(10);
+  recipe.period = kStopPeriod;
   // It holds only about a position, and who knows only the recipe knows none.
   recipe.ends = StopEnds::damps;
   return recipe;

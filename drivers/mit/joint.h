@@ -7,6 +7,9 @@
 
 namespace drover::mit {
 
+/// How often a stop's frame is sent.
+inline constexpr Duration kStopPeriod = std::chrono::milliseconds(10);
+
 /// How a motor's frames become a joint's, and the last limits of what is sent.
 struct Joint {
   std::uint8_t id = 1;
@@ -47,6 +50,17 @@ class SetpointPacker final {
   Joint joint_;
   CanFrame damp_;
   std::uint64_t bad_ = 0;
+};
+
+/// Somebody else, the guard, plays the stop of a motor.
+class OthersDamping final {
+ public:
+  void heard(Time now) { last_ = now; }
+  /// One of its frames may be late.
+  bool goes_on(Time now) const { return last_ != kNever && now - last_ <= 2 * kStopPeriod; }
+
+ private:
+  Time last_ = kNever;
 };
 
 /// A motor that is to be let go damps first, for as long as that brakes its joint.

@@ -49,6 +49,10 @@ struct LinkHandover {
   bool opened() const { return can || serial || lines || outputs; }
 };
 
+/// A device that comes back is there within a second: the pause never grows beyond half of it. It
+/// begins short, since an arm falls when its motors' time-outs, of 100 ms, run out.
+inline constexpr BackOff kLinkPause{std::chrono::milliseconds(5), std::chrono::milliseconds(500)};
+
 class LinkKeeper final {
  public:
   LinkKeeper(const config::DroverConfig& config, const Wiring& wiring, const GuardMemory& memory,
@@ -76,8 +80,7 @@ class LinkKeeper final {
   struct Slot {
     bool used = false;
     bool open = false;
-    // A device that comes back is there within a second: the pause never grows beyond half of it.
-    BackOff retry{std::chrono::milliseconds(50), std::chrono::milliseconds(500)};
+    BackOff retry = kLinkPause;
     std::string problem;
     int baud = 0;               ///< of a stream
     bool guard_reaches = true;  ///< the guard has a way there, as it said last

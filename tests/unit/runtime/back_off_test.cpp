@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/link_keeper.h"
+
 namespace drover::runtime {
 namespace {
 
@@ -38,6 +40,19 @@ TEST(ABackOff, TriesAtOnceWhenTold) {
   EXPECT_TRUE(retry.due(now));
   retry.tried(now);
   EXPECT_EQ(retry.next() - now, 50ms);
+}
+
+/// An arm falls when its motors' time-outs, of 100 ms, run out.
+TEST(ThePauseOfALink, OpensWhatWasGoneForAMomentBeforeAMotorLetsGo) {
+  for (Duration gone{}; gone <= 70ms; gone += 1ms) {
+    BackOff retry = kLinkPause;
+    Time at{100s};
+    while (at < Time{100s} + gone) {
+      retry.tried(at);
+      at = retry.next();
+    }
+    EXPECT_LE(at - Time{100s}, 80ms) << gone.count();
+  }
 }
 
 }  // namespace

@@ -96,6 +96,61 @@ TEST(Cubemars, IsNotLetGoOfWhileSomebodyElseMakesItDamp) {
   EXPECT_FALSE(bench.shaft.energized);
 }
 
+/// A motor that holds a weight, of which nothing is heard, and a driver that never heard it; the
+/// guard made it damp meanwhile, and for a moment more.
+void begin_anew_beside_the_guard(CanBench& bench, AxisRequest request) {
+  CanBench before(subject());
+  arm(before);
+  before.twin->set_fault("silent", before.now);
+  bench.twin = std::move(before.twin);
+  bench.now = before.now;
+  bench.device->on_link_up(bench.now);
+  bench.load_Nm = 1;
+  const CanFrame damp = bench.actuator->stop_recipe().rounds[0].frames[0];
+  for (int i = 0; i < 50; ++i) {
+    bench.send(damp);
+    bench.inject(damp);
+    bench.run(milliseconds(10), request);
+  }
+}
+
+/// With 1 Nm on a damping of 1 Nms/rad; a free fall is 20 rad/s after a second.
+void expect_damped(const CanBench& bench) {
+  EXPECT_TRUE(bench.shaft.energized);
+  EXPECT_LT(std::abs(bench.shaft.velocity_radps), 1.1);
+}
+
+/// It may obey, and only its answers be lost: to ask it would drop what it carries.
+TEST(Cubemars, IsMadeToDampByADriverThatNeverHeardItWhereTheGuardDidSo) {
+  CanBench bench(subject());
+  begin_anew_beside_the_guard(bench, AxisRequest::rest);
+  EXPECT_TRUE(bench.sent.empty()) << "the guard's are enough";
+  bench.run(milliseconds(2000), AxisRequest::rest);
+  expect_damped(bench);
+  EXPECT_EQ(count(bench.sent, kLeave), 0);
+  EXPECT_EQ(count(bench.sent, kEnable), 0);
+  bench.run(milliseconds(1500), AxisRequest::rest);
+  EXPECT_GT(count(bench.sent, kLeave), 0) << "given up after 3 s, as any that falls silent";
+}
+
+TEST(Cubemars, IsLetGoThoughItWasNeverHeardWhenThatIsAsked) {
+  CanBench bench(subject());
+  begin_anew_beside_the_guard(bench, AxisRequest::idle);
+  bench.run(milliseconds(1500), AxisRequest::idle);
+  EXPECT_FALSE(bench.shaft.energized);
+}
+
+TEST(Cubemars, IsMadeToDampAfterANewLinkWhenNobodyHearsIt) {
+  CanBench bench(subject());
+  arm(bench);
+  bench.load_Nm = 1;
+  bench.twin->set_fault("silent", bench.now);
+  bench.run(milliseconds(200), AxisRequest::run);
+  bench.device->on_link_up(bench.now);
+  bench.run(milliseconds(2000), AxisRequest::run);
+  expect_damped(bench);
+}
+
 TEST(Cubemars, IsCalledOffOnlyWhenItAnswersToLettingGo) {
   CanBench bench(subject());
   arm(bench);

@@ -172,6 +172,96 @@ TEST(Damiao, IsMadeToDampWhenNobodyHearsIt) {
   EXPECT_NEAR(bench.shaft.velocity_radps, 0, 0.02);
 }
 
+/// A motor that holds a weight, of which nothing is heard, and a driver that never heard it.
+void begin_anew(CanBench& bench) {
+  CanBench before(subject());
+  arm(before);
+  before.twin->set_fault("silent", before.now);
+  bench.twin = std::move(before.twin);
+  bench.now = before.now;
+  bench.device->on_link_up(bench.now);
+  bench.load_Nm = 1;
+}
+
+/// With 1 Nm on a damping of 1 Nms/rad; a free fall is 20 rad/s after a second.
+void expect_damped(const CanBench& bench) {
+  EXPECT_TRUE(bench.shaft.energized);
+  EXPECT_LT(std::abs(bench.shaft.velocity_radps), 1.1);
+}
+
+/// Its time-out would let go of what only obeys and is not heard.
+TEST(Damiao, IsMadeToDampByADriverThatNeverHeardIt) {
+  CanBench bench(subject());
+  begin_anew(bench);
+  bench.run(milliseconds(5), AxisRequest::rest);
+  const CanFrame damp = bench.actuator->stop_recipe().rounds[0].frames[0];
+  EXPECT_TRUE(has(bench.sent, damp)) << "from the first cycle on";
+  bench.sent.clear();
+  bench.run(milliseconds(2000), AxisRequest::rest);
+  expect_damped(bench);
+  EXPECT_TRUE(has(bench.sent, encode_request(1))) << "one in another mode answers to that alone";
+  EXPECT_LE(bench.sent.size(), 220U) << "100 a second to damp, and 10 questions";
+  EXPECT_EQ(bench.status.state, AxisState::unknown);
+}
+
+TEST(Damiao, IsMadeToDampAfterANewLinkWhenNobodyHearsIt) {
+  for (const AxisRequest request : {AxisRequest::run, AxisRequest::hold, AxisRequest::rest}) {
+    CanBench bench(subject());
+    arm(bench);
+    bench.load_Nm = 1;
+    bench.twin->set_fault("silent", bench.now);
+    bench.run(milliseconds(200), request);
+    bench.device->on_link_up(bench.now);
+    bench.run(milliseconds(2000), request);
+    expect_damped(bench);
+    bench.twin->set_fault("", bench.now);
+    bench.run(milliseconds(2000), request);
+    expect_damped(bench);
+    EXPECT_TRUE(bench.moving.empty() || request == AxisRequest::run);
+  }
+}
+
+/// Who wants it let go gets that: it is only asked, and its own time-out does it.
+TEST(Damiao, IsNotMadeToDampByADriverThatNeverHeardItWhenItIsLetGo) {
+  CanBench bench(subject());
+  begin_anew(bench);
+  bench.run(milliseconds(1000), AxisRequest::idle);
+  EXPECT_FALSE(bench.shaft.energized);
+  for (const CanFrame& frame : bench.sent) EXPECT_EQ(frame, encode_request(1));
+}
+
+/// What is off stays off: damping enables nothing.
+TEST(Damiao, StaysOffWhenItIsMadeToDampBeforeItIsHeard) {
+  CanBench bench(subject());
+  bench.twin->set_fault("silent", bench.now);
+  bench.run(milliseconds(1000), AxisRequest::rest);
+  EXPECT_FALSE(bench.shaft.energized);
+  bench.twin->set_fault("", bench.now);
+  bench.run(milliseconds(300), AxisRequest::rest);
+  EXPECT_EQ(bench.status.state, AxisState::idle);
+  bench.sent.clear();
+  bench.run(milliseconds(300), AxisRequest::rest);
+  EXPECT_FALSE(has(bench.sent, bench.actuator->stop_recipe().rounds[0].frames[0]));
+}
+
+/// The guard's frames are enough: two programs need not say the same.
+TEST(Damiao, LeavesItToTheGuardWhileThatMakesItDamp) {
+  CanBench bench(subject());
+  begin_anew(bench);
+  const CanFrame damp = bench.actuator->stop_recipe().rounds[0].frames[0];
+  bench.inject(damp);
+  for (int i = 0; i < 50; ++i) {
+    bench.run(milliseconds(10), AxisRequest::rest);
+    bench.send(damp);
+    bench.inject(damp);
+  }
+  EXPECT_FALSE(has(bench.sent, damp));
+  expect_damped(bench);
+  bench.run(milliseconds(2000), AxisRequest::rest);
+  EXPECT_TRUE(has(bench.sent, damp));
+  expect_damped(bench);
+}
+
 TEST(Damiao, TakesNoRegisterForAFeedback) {
   CanBench bench(subject());
   arm(bench);
