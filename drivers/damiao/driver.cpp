@@ -89,8 +89,8 @@ void DamiaoDriver::keep_alive(Time now, DriverOut& out) {
 }
 
 /// It may have held a weight before this program began, or before the link was lost, and obey
-/// though its answers do not come: a question would leave it to its time-out, which lets go. Damping
-/// enables nothing, and its zeros are zeros in every range. Who wants it let go gets that.
+/// though its answers do not come: a question would leave it to its time-out, which lets go.
+/// Damping enables nothing, and its zeros are zeros in every range. Who wants it let go gets that.
 void DamiaoDriver::look_for_it(Time now, DriverOut& out) {
   const bool damps = phase_ != Phase::idling && !guard_.goes_on(now);
   if (damps && is_due(last_sent_, kPoll, now)) {

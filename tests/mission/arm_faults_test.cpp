@@ -210,5 +210,45 @@ TEST(ArmHung, TheNextDaemonHoldsItAndDrives) {
   expect_good_drive(log, 3);
 }
 
+/// Its motors obey and are not heard, or its bus is gone for a moment: it does not fall.
+struct ArmUnheard : testing::Test {
+  const Record& log = record("arm_unheard");
+
+  Time step(const std::string& name) const { return log.event("event " + name + "#1"); }
+  double fastest_radps(std::size_t joint, Time begin, Time end) const {
+    double most = 0;
+    const TruthLine* before = nullptr;
+    for (const TruthLine& line : log.truth) {
+      if (line.time < begin || line.time > end) continue;
+      if (before != nullptr)
+        most = std::max(most, std::abs(line.arm_rad.at(joint) - before->arm_rad.at(joint)) /
+                                  to_s(line.time - before->time));
+      before = &line;
+    }
+    return most;
+  }
+};
+
+TEST_F(ArmUnheard, IsHeldOnWhenItsBusWasGoneForAMoment) {
+  const Time off = step("off");
+  ASSERT_GT(arm_at(log, kShoulder, off), 0.9) << "it is up";
+  for (const std::size_t joint : {kShoulder, kElbow})
+    EXPECT_LT(strayed(log, joint, off, off + 1s), 0.06) << joint;
+}
+
+// 3.6 Nm at most over 4.9 Nms/rad; what is limp falls at 7 rad/s, and the elbow at 12 rad/s.
+TEST_F(ArmUnheard, SinksAndDoesNotFallThroughANewLinkAndANewDroverd) {
+  const Time silent = step("silent");
+  const Time heard = step("heard");
+  for (const std::size_t joint : {kShoulder, kElbow}) {
+    const double speed = fastest_radps(joint, silent, heard);
+    figure(joint == kShoulder ? "shoulder, at most" : "elbow, at most", speed, "rad/s");
+    EXPECT_LT(speed, 0.9) << joint;
+  }
+  // It was there to fall when it happened.
+  EXPECT_GT(arm_at(log, kShoulder, step("off_again")), 0.9);
+  EXPECT_GT(arm_at(log, kShoulder, step("restarted")), 0.3);
+}
+
 }  // namespace
 }  // namespace drover::mission
