@@ -52,6 +52,8 @@ struct Feedback {
   bool lost_comm() const { return status == static_cast<std::uint8_t>(MotorStatus::lost_comm); }
   /// One of the documented errors.
   bool failed() const;
+  /// Its motor gives no torque. Of what nobody has documented nobody knows: it may hold.
+  bool off() const { return disabled() || failed(); }
 };
 
 /// Requests that any motor may hear, under one id; its own is in the first two bytes.

@@ -77,11 +77,11 @@ void DamiaoDriver::send_command(const CanFrame& frame, Time now, DriverOut& out)
 }
 
 /// Each frame brings one feedback. What is surely off is asked; what is not is made to damp, though
-/// nobody hears it: it may obey and only its answers be lost.
+/// nobody hears it: it may obey and only its answers be lost. So is what tells a status that nobody
+/// has documented.
 void DamiaoDriver::keep_alive(Time now, DriverOut& out) {
   if (heard_.last_alive == kNever) return look_for_it(now, out);
-  const bool off = !silent(now) && !feedback_.enabled();
-  if (!off) return send_command(damp_, now, out);
+  if (silent(now) || !feedback_.off()) return send_command(damp_, now, out);
   if (!is_due(last_sent_, kPoll, now)) return;
   last_sent_ = now;
   moving_ = false;

@@ -283,6 +283,24 @@ TEST(Damiao, AnUndocumentedStatusIsNotEnabled) {
             "it let go by itself: status 3, which its maker does not document");
 }
 
+/// Its motor may be on, whatever that status says: asked alone, its time-out would let go.
+TEST(Damiao, IsMadeToDampInAStatusThatNobodyHasDocumented) {
+  for (const std::uint8_t status : {2, 3, 4, 5, 6, 7, 0xF}) {
+    CanBench bench(subject());
+    arm(bench);
+    const auto first = static_cast<std::uint8_t>(status << 4 | 1);
+    bench.twin->set_power(false, bench.now);
+    const CanFrame damp = bench.actuator->stop_recipe().rounds[0].frames[0];
+    for (int i = 0; i < 20; ++i) {
+      bench.inject(make_frame(0x11, {first, 0x7F, 0xFF, 0x7F, 0xF7, 0xFF, 0x19, 0x19}));
+      bench.sent.clear();
+      bench.run(milliseconds(10), AxisRequest::run);
+      EXPECT_TRUE(has(bench.sent, damp)) << "status " << int{status};
+    }
+    EXPECT_EQ(bench.status.state, AxisState::fault);
+  }
+}
+
 TEST(Damiao, IsGivenUpWhenSomebodyElseCommandsIt) {
   for (const CanFrame& frame :
        {encode_mit(1, {0, 1, 0, 1, 0}, {}), kEnable, encode_write(1, reg::kTimeout, 0),
