@@ -30,6 +30,7 @@ Engine::Impl::Impl(const EngineConfig& c)
       tilt(c.health),
       hit(c.health),
       mechanics(c),
+      aside(c),
       clearance(c.clearance, c.limits, c.clearance_required, limits(base).pivots,
                 limits(base).sideways && c.clearance_aside),
       navigator(c, latch),
@@ -110,6 +111,7 @@ Engine::Impl::Impl(const EngineConfig& c)
     snapshot.gnss.position_time = m.time;
     rest.witness().on_position(*position, m.time);
     mechanics.on_position(*position, m.time);
+    aside.on_position(*position, m.time);
   } else if (const auto* velocity = std::get_if<GnssVelocity>(&m.value)) {
     if (m.time < snapshot.gnss.velocity_time) return;
     snapshot.gnss.velocity = *velocity;
@@ -345,17 +347,17 @@ void Engine::step(Time now, const Environment& environment, EngineOutput& out) {
        e.owners.refusal(), cap_mps, e.clearance.caps().along_mps, e.clearance.unasked(),
        !e.config.clearance_required && e.no_sideways({}).empty()},
       e.events);
-  wanted.target = e.clearance.limit(e.mechanics.guide(wanted.target));
+  wanted.target = e.clearance.limit(e.aside.bounded(e.mechanics.guide(wanted.target)));
   const Learned learned{e.estimate.yaw_slip_factor};
   const Twist stream = twist_of(e.base, e.owners.stream_radps(), learned);
-  const Twist by_twist = e.clearance.limit(e.mechanics.guide(e.owners.by_twist()));
+  const Twist by_twist = e.clearance.limit(e.aside.slowed(e.mechanics.guide(e.owners.by_twist())));
   if (!environment.slept.empty()) e.owners.slow_to(e.estimate.body);
   const Motion& motion = e.owners.step(
       {now, dt, e.estimate, e.health.report(), e.wheel_fault, e.wheel_reason, wanted, cap_mps,
-       e.mechanics.speed_cap_mps(FirstWay::joints), e.mechanics.speed_cap_mps(FirstWay::hand),
-       e.arming.hindrance(), stream, e.clearance.caps().ahead_mps,
-       e.clearance.rim_cap_mps(stream, track_of_turn_m(e.base) / 2), e.clearance.too_near(),
-       by_twist, e.steered_radpm()},
+       std::min(e.mechanics.speed_cap_mps(FirstWay::joints), e.aside.rim_cap_mps(stream)),
+       e.mechanics.speed_cap_mps(FirstWay::hand), e.arming.hindrance(), stream,
+       e.clearance.caps().ahead_mps, e.clearance.rim_cap_mps(stream, track_of_turn_m(e.base) / 2),
+       e.clearance.too_near(), by_twist, e.steered_radpm()},
       e.events);
   e.commanded =
       motion.joints ? twist_of(e.base, e.owners.joint_velocities_radps(), learned) : motion.twist;

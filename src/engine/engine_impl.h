@@ -13,6 +13,7 @@
 #include "engine/event_queue.h"
 #include "engine/group/joint_group.h"
 #include "engine/health/announcer.h"
+#include "engine/health/aside_check.h"
 #include "engine/health/health.h"
 #include "engine/health/hit_watch.h"
 #include "engine/health/latch.h"
@@ -107,6 +108,7 @@ struct Engine::Impl {
   TiltWatch tilt;
   HitWatch hit;
   MechanicsCheck mechanics;
+  AsideCheck aside;
   ClearanceWatch clearance;
   Twist commanded;            ///< in the last cycle; of single joints what they make of it
   bool by_joints = false;     ///< and of those it is

@@ -27,6 +27,7 @@ void Engine::Impl::choose_sensors(Time now, const Environment& environment) {
   if (!change.receiver) return;
   rest.witness().forget_receiver();
   mechanics.forget_receiver(antenna_of(config.estimate, sensors.receiver()));
+  aside.forget_receiver(antenna_of(config.estimate, sensors.receiver()));
   fix = sensors.position();
   snapshot.gnss.position = fix;
   snapshot.gnss.position_time = sensors.position_at();
@@ -95,6 +96,11 @@ Reason Engine::Impl::judge_motion(Time now, Duration dt, const LineTable& lines,
                   .yaw_slip_factor = estimate.yaw_slip_factor,
                   .yaw_rad = estimate.has_heading ? estimate.pose.yaw_rad : kAbsent,
                   .gyro_zero_known = std::isfinite(estimate.gyro_bias_sigma_radps)});
+  aside.step({.now = now,
+              .dt = dt,
+              .body = estimate.body.twist,
+              .still = !motion_asked && estimate.fastest_mps < kStands_mps,
+              .yaw_rad = estimate.has_heading ? estimate.pose.yaw_rad : kAbsent});
   // What did not stop is latched, in words of its own, and "rests again" only when it does.
   if (state != RestState::not_stopping) return rest.reason();
   return rest.moves(now) ? Reason("the robot still moves") : Reason();
@@ -121,6 +127,10 @@ void Engine::Impl::watch_wheels(Time now, Duration dt) {
   if (wheel_fault == WheelFault::none && !mechanics.fault().empty()) {
     wheel_fault = WheelFault::disagrees;
     wheel_reason = mechanics.fault();
+  }
+  if (wheel_fault == WheelFault::none && !aside.fault().empty()) {
+    wheel_fault = WheelFault::disagrees;
+    wheel_reason = aside.fault();
   }
 }
 

@@ -89,9 +89,13 @@ void Engine::Impl::tell_first_way(Owner owner) {
   const bool by_stream_of_joints = owner == Owner::joint_command;
   const bool by_hand = owner == Owner::manual && owners.hand_drives();
   const bool by_twist = owner == Owner::cmd_vel;
-  const Reason why = mechanics.slowly(by_stream_of_joints || by_twist ? FirstWay::joints
-                                      : by_hand                       ? FirstWay::hand
-                                                                      : FirstWay::task);
+  Reason why = mechanics.slowly(by_stream_of_joints || by_twist ? FirstWay::joints
+                                : by_hand                       ? FirstWay::hand
+                                                                : FirstWay::task);
+  const Learned learned{estimate.yaw_slip_factor};
+  if (why.empty() && by_twist) why = aside.slowly(owners.by_twist());
+  if (why.empty() && by_stream_of_joints)
+    why = aside.slowly(twist_of(base, owners.stream_radps(), learned));
   if (why.empty()) return;
   snapshot.tell_why(why);
   if (by_twist && snapshot.cmd_vel.reason.empty()) snapshot.cmd_vel.reason = why;

@@ -224,5 +224,22 @@ TEST(MecanumTornStuck, EndsTheNextStartWhereItBegan) {
   EXPECT_EQ(log.statuses.back().nav, "NAV_ERROR");
 }
 
+/// The first correction aside goes away from the track.
+TEST(MecanumRows, ThatAreSwappedEndTheTaskInWordsThatNameThem) {
+  const Record& log = record("mecanum_rows");
+  const Time begin = log.answered("start_nav_success");
+  const auto& error = log.first_status("NAV_ERROR", begin);
+  const auto figures = drive_figures(log, begin, error.time);
+  figure("ended after", error.time - begin);
+  figure("way", figures.distance_m, "m");
+  figure("farthest beside the track", figures.max_m, "m");
+  EXPECT_THAT(error.why, testing::ContainsRegex(
+                             "it goes to the (left|right) where its wheels say (left|right): is "
+                             "the front wheel first in groups.base.left/right"));
+  EXPECT_LT(figures.max_m, 0.2);
+  EXPECT_EQ(log.statuses.back().nav, "NAV_ERROR");
+  EXPECT_THAT(log.moving(error.time + 3s, log.truth.back().time - 10ms), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace drover::mission

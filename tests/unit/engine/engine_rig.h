@@ -155,6 +155,7 @@ class EngineRig {
     bool reversed = false;  ///< the left front wheel
     double differs = 1;     ///< the sides follow so much of the difference that they are asked for
     double gyro = 1;        ///< it tells so many times the turn
+    double aside = 1;       ///< on rollers it goes so much of what its wheels say of a way aside
   } mechanics;
   bool cycle_skipped = false;    ///< what is measured waits for the next cycle
   bool burst_backwards = false;  ///< it comes newest first
@@ -271,13 +272,15 @@ class EngineRig {
     const double before_y_m = plant.truth().y_m;
     const bool rollers = config.base.kind == BaseKind::mecanum;
     const double aside_radps = (true_speed[1] + true_speed[2] - true_speed[0] - true_speed[3]) / 4;
-    plant.step(sides, dt_s, rollers ? aside_radps * config.base.wheel_radius_m : 0);
+    const double aside_mps = mechanics.aside * aside_radps * config.base.wheel_radius_m;
+    plant.step(sides, dt_s, rollers ? aside_mps : 0);
     driven_m += std::hypot(plant.truth().x_m - before_x_m, plant.truth().y_m - before_y_m);
     const Pose seen = plant.estimate();
     const double turn_mps = (mechanics.swapped ? -0.5 : 0.5) * plant.turn_track_m() * seen.wz_radps;
     for (std::size_t i = 0; i < 4; ++i) {
-      const double aside_mps = i == 1 || i == 2 ? seen.vy_mps : -seen.vy_mps;
-      const double rim_mps = seen.vx_mps + aside_mps + (i % 2 == 0 ? -turn_mps : turn_mps);
+      const double told_mps = mechanics.aside == 0 ? 0 : seen.vy_mps / mechanics.aside;
+      const double roller_mps = i == 1 || i == 2 ? told_mps : -told_mps;
+      const double rim_mps = seen.vx_mps + roller_mps + (i % 2 == 0 ? -turn_mps : turn_mps);
       Drive& drive = drives[i];
       double radps = rim_mps / config.base.wheel_radius_m / mechanics.gear + drive.by_itself_radps;
       if (mechanics.reversed || mechanics.crossed)
