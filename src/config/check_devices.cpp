@@ -55,75 +55,6 @@ void addresses(Findings& found) {
   }
 }
 
-/// Drivers whose frames mean harm to each other's devices.
-struct Enemies {
-  std::string_view one;
-  std::string_view other;
-  std::string_view with;  ///< the other, in words
-  std::string_view why;
-  double master_id = -1;  ///< only when the one answers under this id
-};
-constexpr Enemies kEnemies[] = {
-    {"damiao", "odrive", "an odrive",
-     "what reads its registers (0x7FF) is by its id an ODrive's broadcast to enter firmware "
-     "update"},
-    {"damiao", "zlac8015d", "a zlac8015d when it answers under the master id 0",
-     "its answers are by their id commands that start and reset CANopen nodes", 0},
-    {"damiao", "cia402", "a cia402 when it answers under the master id 0",
-     "its answers are by their id commands that start and reset CANopen nodes", 0},
-    {"cubemars_mit", "zlac8015d", "a zlac8015d",
-     "its answers under the master id 0 are by their id commands that start and reset CANopen "
-     "nodes",
-     0},
-};
-
-/// Of what nobody wrote the default is no answer: a damiao's stands for another id.
-bool means_harm(const Enemies& enemies, const DeviceConfig& device, const Findings& found) {
-  if (device.driver != enemies.one) return false;
-  return enemies.master_id < 0 || (found.given(device_path(device, "options.master_id")) &&
-                                   device.options.number("master_id") == enemies.master_id);
-}
-
-void company_on_a_bus(Findings& found) {
-  const auto& devices = found.config().devices;
-  for (const auto& enemies : kEnemies)
-    for (const auto& device : devices)
-      if (means_harm(enemies, device, found) &&
-          std::any_of(devices.begin(), devices.end(), [&](const auto& each) {
-            return each.driver == enemies.other && each.link == device.link;
-          }))
-        found.add(device_path(device, "link"),
-                  "a " + std::string(enemies.one) + " shares no bus with " +
-                      std::string(enemies.with) + ": " + std::string(enemies.why),
-                  "a bus of its own");
-}
-
-/// A motor that nobody gave an id to answer under does it under 0.
-void as_it_is_delivered(Findings& found) {
-  const auto& devices = found.config().devices;
-  for (const auto& device : devices) {
-    if (device.driver != "damiao" || found.has_problem(device_path(device, "link"))) continue;
-    const auto path = device_path(device, "options.master_id");
-    if (found.given(path) && device.options.number("master_id") == 0 && !found.is_wrong(path))
-      found.hint_at(path,
-                    "is 0, which means 16 more than id: a motor that answers under 0, as it may be "
-                    "delivered, is not heard",
-                    "give the motor an id to answer under (its register 7), and write that, or "
-                    "leave this out");
-    const auto drive = std::find_if(devices.begin(), devices.end(), [&](const auto& each) {
-      return each.link == device.link && (each.driver == "cia402" || each.driver == "zlac8015d");
-    });
-    if (drive == devices.end()) continue;
-    return found.warn(device_path(device, "link"),
-                      "shares \"" + device.link + "\" with " + device_path(*drive) + " (" +
-                          drive->driver +
-                          "): a motor that answers under 0, as it may be delivered, sends by this "
-                          "id commands that start and reset CANopen nodes; and 1 Mbit/s, as the "
-                          "motor is delivered, has to be the drive's speed, too",
-                      "mixed_bus", "a bus of its own");
-  }
-}
-
 std::string names_of(std::span<const Channel> channels) {
   std::string names;
   for (const auto& channel : channels)
@@ -169,8 +100,7 @@ void check_devices(Findings& found) {
   }
   check_roles(found);
   addresses(found);
-  company_on_a_bus(found);
-  as_it_is_delivered(found);
+  check_buses(found);
 }
 
 void check_joints(Findings& found) {

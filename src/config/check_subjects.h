@@ -16,6 +16,7 @@ inline constexpr int kUsualBaud = 115200;
 // The tables: names that refer to each other, and what two may not share.
 void check_links(Findings& found);    ///< fills in wires and usual speeds
 void check_devices(Findings& found);  ///< fills in kinds and links
+void check_buses(Findings& found);    ///< drives that do not go together on one
 /// Of receivers, inertial sensors and batteries; fills in their roles and antennas.
 void check_roles(Findings& found);
 engine::SensorList sensors_of(const DroverConfig& config, SlotKind kind);

@@ -387,8 +387,8 @@ void visit(V& v, DroverConfig& c, GroupNames& groups) {
       "when its commands cease; rolls: groups.base.max_tilt_deg is above 3, and drover-guard lets "
       "the wheels coast; early_time_out: a drive of which nobody says that it holds then stops by "
       "itself before the guard does; swings: a joint is damped little where it is held; mixed_bus: "
-      "motors that answer under 0 as they are delivered share a bus with CANopen drives; that is "
-      "known");
+      "DAMIAO motors share a bus with CANopen or RoboMaster drives, or drives of two bit rates do; "
+      "that is known");
 }
 
 }  // namespace drover::config

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "unit/config/config_text.h"
 
@@ -114,6 +115,69 @@ TEST(BusIds, AreNotTakenByANodeThatIsNoneOfCanOpens) {
       R"({"node": )";
   EXPECT_THAT(hubs_with(axis + "0}}"), Not(HasSubstr("both use the id")));
   EXPECT_THAT(hubs_with(axis + "4}}"), HasSubstr("both use the id 0x081 on \"can0\""));
+}
+
+std::string controllers(const std::string& link, const std::string& motors) {
+  return R"("rollers": {"driver": "robomaster_c620", "link": ")" + link +
+         R"(", "options": {"motors": ")" + motors +
+         R"(", "velocity_gain_Nms_per_rad": 0.3}, "joints": {"a": {"channel": ")" + motors[0] +
+         R"("}}})";
+}
+
+std::string motor_on(const std::string& link, int id, const std::string& more = "") {
+  return R"("lift": {"driver": "damiao", "link": ")" + link +
+         R"(", "options": {"model": "DM4310", "id": )" + std::to_string(id) + more + "}}";
+}
+
+/// As hubs_with(), of warnings; `word` is accepted.
+std::string warned_hubs_with(const std::string& more, const std::string& word = "no_relay") {
+  auto text = example_with("two_hub_motors.json", more);
+  text.insert(text.find('{') + 1, "\"accept\": [\"" + word + "\"], ");
+  std::string all;
+  for (const auto& warning : load_text(text, kExamples).warnings) all += warning.text("f") + "\n";
+  return all;
+}
+
+TEST(BusIds, AreRefusedToAMotorThatAnswersAsAControllerDoesOrIsToldAsOne) {
+  const auto told = [](int master_id) {
+    return problems(
+        example_with("robomaster.json",
+                     motor_on("can0", 9, R"(, "master_id": )" + std::to_string(master_id))),
+        kExamples);
+  };
+  for (const auto& [id, hex] : {std::pair{0x203, "0x203"}, {0x200, "0x200"}})
+    EXPECT_THAT(told(id), (HasSubstr("devices.wheels (robomaster_c620) and devices.lift "
+                                     "(damiao) both use the id " +
+                                     std::string(hex) + " on \"can0\"")));
+  EXPECT_THAT(told(0x205), Not(HasSubstr("both use")));
+}
+
+TEST(BusIds, OfAMotorThatIsNotInMitModeAreToldWhenAControllerAnswersUnderThem) {
+  const auto told = warned_hubs_with(controllers("can9", "1-4") + ", " + motor_on("can9", 3));
+  EXPECT_THAT(told, HasSubstr("devices.lift.options.id: devices.lift (damiao) and devices.rollers "
+                              "(robomaster_c620) share the id 0x203 on \"can9\""));
+  const auto shares = HasSubstr("share the id");
+  const auto first_four = controllers("can9", "1-4") + ", ";
+  EXPECT_THAT(warned_hubs_with(first_four + motor_on("can9", 3), "mixed_bus"), Not(shares));
+  EXPECT_THAT(warned_hubs_with(first_four + motor_on("can9", 5)), Not(shares));
+  EXPECT_THAT(warned_hubs_with(first_four + motor_on("can0", 3)), Not(shares));
+  const auto last_four = controllers("can9", "5-8") + ", ";
+  EXPECT_THAT(warned_hubs_with(last_four + motor_on("can9", 3)), Not(shares));
+  EXPECT_THAT(warned_hubs_with(last_four + motor_on("can9", 5)),
+              HasSubstr("share the id 0x205 on \"can9\""));
+}
+
+TEST(Buses, HaveOneBitRate) {
+  const auto scout = R"("scout": {"driver": "agilex_v2", "link": ")";
+  const auto on = [&](const std::string& link) { return scout + link + "\"}, "; };
+  EXPECT_THAT(warned_hubs_with(on("can9") + motor_on("can9", 3)),
+              HasSubstr("devices.lift.link: devices.lift (damiao) speaks at 1000 kbit/s, and "
+                        "devices.scout (agilex_v2) on \"can9\" at 500 kbit/s"));
+  const auto differs = HasSubstr("a bus has one bit rate");
+  EXPECT_THAT(warned_hubs_with(on("can9") + motor_on("can9", 3), "mixed_bus"), Not(differs));
+  EXPECT_THAT(warned_hubs_with(on("can0") + motor_on("can9", 3)), Not(differs));
+  EXPECT_THAT(warned_hubs_with(controllers("can9", "1-4") + ", " + motor_on("can9", 6)),
+              Not(differs));
 }
 
 }  // namespace
