@@ -41,6 +41,7 @@ bool has_joint(const std::vector<JointGroup>& groups, const std::string& joint);
 
 // Values that contradict each other.
 void check_limits(Findings& found);
+void check_paths(Findings& found);
 void check_broker(Findings& found);
 void check_channel(Findings& found);
 /// Inputs that whoever reaches the robot's networks could use.

@@ -46,6 +46,28 @@ void check_limits(Findings& found) {
 
 namespace {
 
+/// "password", "~/password": what would be found from a person's shell, and not by the service.
+void check_path(const char* path, const std::string& written, const char* like, Findings& found) {
+  if (written.starts_with('/') || found.is_wrong(path)) return;
+  found.add(
+      path,
+      "\"" + written + "\" is no absolute path: a service has no home, and its working folder is /",
+      "a path like \"" + std::string(like) + "\"");
+}
+
+}  // namespace
+
+void check_paths(Findings& found) {
+  const auto& config = found.config();
+  check_path("paths.state", config.paths.state, "/var/lib/drover", found);
+  check_path("paths.run", config.paths.run, "/run/drover", found);
+  check_path("guard.socket", config.guard.socket, "/run/drover/guard.sock", found);
+  if (!config.mqtt.password_file.empty())
+    check_path("mqtt.password_file", config.mqtt.password_file, "/etc/drover/mqtt.password", found);
+}
+
+namespace {
+
 /// "mqtt://10.0.0.5:1883": what people have from elsewhere.
 void check_host(const std::string& host, Findings& found) {
   if (host.starts_with('/') || found.has_problem("mqtt.host")) return;

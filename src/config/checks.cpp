@@ -43,6 +43,7 @@ void check_and_resolve(const json::Node& root, const GroupNames& groups, const s
   check_lines(found);
   check_use_of_links(found);
   check_limits(found);
+  check_paths(found);
   check_broker(found);
   check_channel(found);
   check_ros2(found);

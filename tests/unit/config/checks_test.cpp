@@ -247,6 +247,32 @@ TEST(ConfigurationChecks, RefuseADriveThatNothingStopsUnlessItIsAcceptedByName) 
                 "(did you mean \"no_watchdog\"?)"));
 }
 
+TEST(ConfigurationChecks, RefuseAPathThatAServiceWouldLookForElsewhere) {
+  const std::string why =
+      " is no absolute path: a service has no home, and its working folder is /";
+  const auto told = [](const std::string& section, const std::string& key,
+                       const std::string& path) {
+    return problems(
+        with("\"limits\"", "\"" + section + "\": {\"" + key + "\": \"" + path + "\"}, \"limits\""));
+  };
+  EXPECT_EQ(told("paths", "state", "~/state"),
+            "f:12:22: paths.state: \"~/state\"" + why + " (a path like \"/var/lib/drover\")\n");
+  EXPECT_THAT(told("paths", "state", ""), HasSubstr("paths.state: \"\"" + why));
+  EXPECT_THAT(told("paths", "run", "run"), HasSubstr("paths.run: \"run\"" + why));
+  EXPECT_THAT(told("guard", "socket", "guard.sock"),
+              HasSubstr("guard.socket: \"guard.sock\"" + why));
+  EXPECT_EQ(told("guard", "socket", "/tmp/guard.sock"), "");
+  const auto password = [](const std::string& path) {
+    return problems(with("\"port\": 1883",
+                         "\"port\": 1883, \"username\": \"a\", "
+                         "\"password_file\": \"" +
+                             path + "\""));
+  };
+  EXPECT_THAT(password("~/p"), HasSubstr("mqtt.password_file: \"~/p\"" + why));
+  EXPECT_EQ(password("/etc/p"), "");
+  EXPECT_EQ(password(""), "");
+}
+
 TEST(ConfigurationChecks, SayWhereTheyLookedForAMapThatIsNotThere) {
   const auto with_map = [](const std::string& map) {
     auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"}, \"panel\"");
