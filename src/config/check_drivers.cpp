@@ -1,4 +1,4 @@
-// The devices: what only their drivers and their register maps know.
+// The devices: what only their drivers know.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -9,8 +9,6 @@
 
 #include "config/bus_ids.h"
 #include "config/check_subjects.h"
-#include "config/register_map.h"
-#include "config/taken.h"
 #include "text/number.h"
 
 namespace drover::config {
@@ -156,6 +154,26 @@ void look_at_speed(const DeviceConfig& device, Findings& found) {
             known.size() == 1 ? "write that, or leave it out" : "");
 }
 
+/// Of a receiver: its positions alone have to fit through the line.
+void look_at_rate(const DeviceConfig& device, Findings& found) {
+  constexpr double kShortestPosition_B = 70;  // a GGA
+  const auto& links = found.config().links;
+  if (device.kind != SlotKind::gnss || device.link_index >= links.size()) return;
+  if (!device.options.has("rate_Hz") || found.has_problem(device_path(device))) return;
+  const auto& link = links[device.link_index];
+  const double carried = link.baud / kBitsPerByte;
+  const double rate_Hz = device.options.number("rate_Hz");
+  if (link.wire != Wire::bytes || found.has_problem(link_path(link))) return;
+  if (rate_Hz * kShortestPosition_B <= carried) return;
+  found.hint_at(link_path(link, "baud"),
+                "is " + std::to_string(link.baud) + ", which carries " +
+                    text::number_text(carried) + " bytes a second, and " +
+                    device_path(device, "options.rate_Hz") + " is " + text::number_text(rate_Hz) +
+                    ": its positions alone take " +
+                    text::number_text(rate_Hz * kShortestPosition_B),
+                "a faster line, or fewer positions a second: at the receiver and here");
+}
+
 /// A driver begins with the option's name. Its speed stands at its link.
 void refuse_options(const DeviceConfig& device, const LinkConfig* link, std::string_view why,
                     Findings& found) {
@@ -178,75 +196,6 @@ Made build(const DeviceConfig& device, Findings& found) {
   } catch (const std::exception& error) {
     refuse_options(device, link, error.what(), found);
     return {};
-  }
-}
-
-/// The register maps that devices name, each read once.
-class Maps final {
- public:
-  Maps(const std::string& folder, Findings& found)
-      : folder_(folder), found_(found), given_(!found.loaded().register_map.empty()) {
-    if (!given_) return;
-    std::string_view left = found.loaded().register_map;
-    for (auto end = left.find(kMapsEnd); end != left.npos; end = left.find(kMapsEnd)) {
-      texts_.emplace_back(left.substr(0, end));
-      left.remove_prefix(end + 1);
-    }
-    texts_.emplace_back(left);
-  }
-
-  RegisterMap read(const DeviceConfig& device) {
-    const auto path = device_path(device, "map");
-    const auto known = std::find(names_.begin(), names_.end(), device.map);
-    if (known != names_.end()) return maps_[static_cast<std::size_t>(known - names_.begin())];
-    const auto place = names_.size();
-    if (const auto missing = given_ ? MissingMap{} : missing_register_map(device.map, folder_);
-        !missing.message.empty()) {
-      found_.add(path, missing.message, missing.hint);
-      return {};
-    }
-    auto loaded = !given_ ? load_register_map(find_register_map(device.map, folder_))
-                          : parse_register_map(place < texts_.size() ? texts_[place] : "");
-    if (!given_) texts_.push_back(std::move(loaded.text));
-    if (!loaded.problems.empty())
-      found_.add(path, "is no good register map", "see its own problems");
-    for (auto& problem : loaded.problems) found_.loaded().problems.push_back(std::move(problem));
-    for (auto& warning : loaded.warnings) found_.loaded().warnings.push_back(std::move(warning));
-    names_.push_back(device.map);
-    return maps_.emplace_back(std::move(loaded.map));
-  }
-
-  std::string joined() const {
-    std::string all;
-    for (const auto& text : texts_)
-      all += (&text == texts_.data() ? "" : std::string(1, kMapsEnd)) + text;
-    return all;
-  }
-
- private:
-  const std::string& folder_;
-  Findings& found_;
-  const bool given_;
-  std::vector<std::string> texts_;
-  std::vector<std::string> names_;
-  std::vector<RegisterMap> maps_;
-};
-
-/// Units of one line are told apart by their addresses, and speak at one pace.
-void share_line(const DeviceConfig& device, Taken& taken, Findings& found) {
-  auto& links = found.config().links;
-  if (device.link_index >= links.size() || found.has_problem(device_path(device, "link"))) return;
-  auto& link = links[device.link_index];
-  if (link.wire != Wire::registers) return;
-  const auto unit = "unit " + std::to_string(device.unit) + " of " + link.name;
-  taken.take(unit, device_path(device, "unit"));
-  if (link.baud == 0) {
-    link.baud = device.registers.baud;
-  } else if (link.baud != device.registers.baud && !found.given(link_path(link, "baud"))) {
-    found.add(link_path(link),
-              "its devices are usually asked at " + std::to_string(link.baud) + " and at " +
-                  std::to_string(device.registers.baud) + " baud",
-              "set both to one speed, and write it here as baud");
   }
 }
 
@@ -303,19 +252,6 @@ void warn_of_slow_chassis(Findings& found) {
              "slow_chassis", own + " or less");
 }
 
-void check_batteries(const std::string& folder, Findings& found) {
-  Maps maps(folder, found);
-  Taken units(found);
-  for (auto& device : found.config().devices) {
-    if (device.kind != SlotKind::battery || found.has_problem(device_path(device, "map"))) continue;
-    device.registers = maps.read(device);
-    if (found.has_problem(device_path(device, "map"))) continue;
-    if (device.unit == 0) device.unit = device.registers.unit;
-    share_line(device, units, found);
-  }
-  found.loaded().register_map = maps.joined();
-}
-
 void follow_baud_rates(Findings& found) {
   for (auto& device : found.config().devices)
     if (!found.has_problem(device_path(device, "link")) &&
@@ -328,6 +264,7 @@ void check_drivers(Findings& found) {
   bool rolls = false;  // told of the first
   for (auto& device : found.config().devices) {
     look_at_speed(device, found);
+    look_at_rate(device, found);
     const auto made = build(device, found);
     ids.take(device, made);
     if (made.actuator == nullptr) continue;

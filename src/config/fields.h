@@ -112,7 +112,7 @@ void visit(V& v, DeviceConfig& c) {
           "no_watchdog: this drive goes on for ever when frames cease, and that is known");
   v.text("map", c.map,
          "file of the device's registers: beside this file, or one of the installed maps");
-  v.integer("unit", c.unit, Range{0, 247}, "Modbus unit; 0: the device's usual one");
+  v.integer("unit", c.unit, Range{0, 247}, "Modbus unit; left out: the device's usual one");
   v.number("period_s", c.period_s, Range{0.2, 60}, "how often it is asked");
   v.text("line", c.line, "name of the line on the chip, or its number where it has none");
   v.choice("is", c.is, {kLineKeys.begin(), kLineKeys.end()},

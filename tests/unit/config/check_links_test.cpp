@@ -149,5 +149,22 @@ TEST(ConfigurationChecks, PointAtTheSpeedOfALineThatIsTooSlowForItsSensor) {
             "quotes)\n");
 }
 
+TEST(ConfigurationChecks, TellOfALineThatIsTooSlowForItsReceiversPositions) {
+  const auto told = [](const std::string& baud, const std::string& options) {
+    auto text = with("115200", baud);
+    const std::string_view link = "\"nmea0183\", \"link\": \"gnss\"";
+    return warnings(text.insert(text.find(link) + link.size(), options));
+  };
+  EXPECT_THAT(
+      told("4800", ""),
+      HasSubstr("f:3:60: links.gnss.baud: is 4800, which carries 480 bytes a second, and "
+                "devices.gnss.options.rate_Hz is 10: its positions alone take 700 (a faster "
+                "line, or fewer positions a second: at the receiver and here)\n"));
+  const auto slow = HasSubstr("positions alone");
+  EXPECT_THAT(told("4800", R"(, "options": {"rate_Hz": 5})"), Not(slow));
+  EXPECT_THAT(told("115200", ""), Not(slow));
+  EXPECT_THAT(told("9600", R"(, "options": {"rate_Hz": 20})"), slow);
+}
+
 }  // namespace
 }  // namespace drover::config

@@ -273,6 +273,40 @@ TEST(ConfigurationChecks, RefuseAPathThatAServiceWouldLookForElsewhere) {
   EXPECT_EQ(password(""), "");
 }
 
+TEST(ConfigurationChecks, RefuseTheAddressThatNoUnitAnswers) {
+  const auto unit = [](const std::string& written) {
+    auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"}, \"panel\"");
+    return problems(text.insert(text.find("    \"estop\""),
+                                R"("pack": {"driver": "modbus_bms", "link": "bms", "map": )"
+                                R"("daly_d2.json")" +
+                                    written + "},\n"));
+  };
+  EXPECT_THAT(unit(", \"unit\": 0"),
+              HasSubstr("devices.pack.unit: is 0, which all units hear and none answers (leave it "
+                        "out for its usual one, 210)\n"));
+  EXPECT_EQ(unit(", \"unit\": 1"), "");
+  EXPECT_EQ(unit(""), "");
+}
+
+TEST(ConfigurationChecks, TellOfABatteryThatIsAskedAtAnotherSpeedThanItsMapKnows) {
+  const auto told = [](const std::string& baud, const std::string& second = "") {
+    auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"" + baud + "}, \"panel\"");
+    return warnings(text.insert(
+        text.find("    \"estop\""),
+        R"("pack": {"driver": "modbus_bms", "link": "bms", "map": "daly_d2.json"},)" + second));
+  };
+  EXPECT_THAT(told(R"(, "baud": 115200)"),
+              HasSubstr("links.bms.baud: is 115200, but by its map devices.pack speaks at 9600 "
+                        "(leave it out, unless the device was set to it)\n"));
+  const auto differs = testing::Not(HasSubstr("by its map"));
+  EXPECT_THAT(told(R"(, "baud": 9600)"), differs);
+  EXPECT_THAT(told(""), differs);
+  // Set to the speed of another one.
+  EXPECT_THAT(told(R"(, "baud": 115200)",
+                   R"("other": {"driver": "modbus_bms", "link": "bms", "map": "jk_pb.json"},)"),
+              differs);
+}
+
 TEST(ConfigurationChecks, SayWhereTheyLookedForAMapThatIsNotThere) {
   const auto with_map = [](const std::string& map) {
     auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"}, \"panel\"");
