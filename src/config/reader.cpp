@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "config/key_hint.h"
 #include "text/control.h"
@@ -30,9 +31,23 @@ std::string what_it_is(const OptionSpec& spec) {
 }
 
 /// What to write instead, for the usual slips.
+/// "0x1f": nothing but addresses of a register map is read so.
+std::optional<unsigned> hexadecimal(std::string_view text) {
+  constexpr std::string_view kBegin = "0x";
+  unsigned value = 0;
+  if (!text.starts_with(kBegin) && !text.starts_with("0X")) return {};
+  text.remove_prefix(kBegin.size());
+  const auto* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value, 16);
+  return error == std::errc{} && end == last ? std::optional(value) : std::nullopt;
+}
+
 std::string right_type(const json::Node& node, std::string_view key, std::string_view expected) {
   if (const auto* text = node.text(); text != nullptr) {
     const auto inner = json::parse(*text);
+    const auto hex = hexadecimal(*text);
+    if (hex && expected.ends_with("number"))
+      return "write " + std::to_string(*hex) + ", without quotes";
     const bool number = inner && inner->root.number() && expected.ends_with("number");
     const bool flag = inner && inner->root.boolean() != nullptr && expected == "true or false";
     return number || flag ? "write it without quotes" : "";
@@ -241,12 +256,8 @@ void Reader::address(std::string_view key, int& into, std::string_view text, Pre
   const auto* node = find(key, presence, text);
   if (node == nullptr) return;
   std::optional<std::int64_t> value = node->integer();
-  if (const auto* word = node->text(); word != nullptr && word->starts_with("0x")) {
-    unsigned number = 0;
-    const auto* end = word->data() + word->size();
-    const auto result = std::from_chars(word->data() + 2, end, number, 16);
-    if (result.ec == std::errc{} && result.ptr == end && word->size() <= 6) value = number;
-  }
+  if (const auto* word = node->text(); word != nullptr && word->size() <= 6)
+    if (const auto hex = hexadecimal(*word)) value = *hex;
   if (!value) return wrong_type(*node, key, "an address like 40 or \"0x28\"");
   if (*value < 0 || *value > 65535) return out_of_range(*node, key, kRegisters);
   into = static_cast<int>(*value);

@@ -1,6 +1,8 @@
 #include "json/slips.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 
 #include "json/located_json.h"
 #include "text/letters.h"
@@ -30,11 +32,21 @@ std::string slip_of_word(std::string_view word) {
   return quoted;
 }
 
+/// Only addresses of a register map are read in hexadecimal.
+std::string slip_of_hexadecimal(std::string_view digits) {
+  std::uint32_t value = 0;
+  const auto* const begin = digits.data();
+  const auto [end, error] = std::from_chars(begin, begin + digits.size(), value, 16);
+  if (error != std::errc{}) return "there are no hexadecimal numbers";
+  return "there are no hexadecimal numbers: write " + std::to_string(value) +
+         "; or, of an address in a register map, \"0x" + std::string(begin, end) + "\" in quotes";
+}
+
 /// What a number ran into, or how it begins.
 std::string slip_of_number(std::string_view text, std::size_t at) {
   const char c = text[at];
   const bool goes_on = at > 0 && text[at - 1] == '0';
-  if (goes_on && (c == 'x' || c == 'X')) return "a hexadecimal number stands in quotes";
+  if (goes_on && (c == 'x' || c == 'X')) return slip_of_hexadecimal(text.substr(at + 1));
   if (goes_on && is_digit(c)) return "a number has no zeros before it";
   const bool before_digit = at + 1 < text.size() && is_digit(text[at + 1]);
   if (c == '.' && before_digit) return "a number begins with a digit, as 0.5 does";

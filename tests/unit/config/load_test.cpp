@@ -75,6 +75,18 @@ TEST(Configuration, RefusesAValueOfAnotherType) {
               HasSubstr("f:11:13: groups: is a list, but an object is expected\n"));
 }
 
+TEST(Configuration, SaysWhatAHexadecimalNumberIs) {
+  const auto node = [](const std::string& written) {
+    return problems(with("{\"node\": 2}", "{\"node\": " + written + "}"));
+  };
+  EXPECT_THAT(node("\"0x0b\""), HasSubstr("is a text, but a whole number is expected (write 11, "
+                                          "without quotes)"));
+  EXPECT_THAT(node("0x0b"), HasSubstr("there are no hexadecimal numbers: write 11"));
+  EXPECT_THAT(node("\"0x\""), testing::EndsWith("but a whole number is expected\n"));
+  EXPECT_THAT(node("\"0x0b kg\""), testing::EndsWith("but a whole number is expected\n"));
+  EXPECT_THAT(problems(with("0.8", "\"0x8\"")), HasSubstr("(write 8, without quotes)"));
+}
+
 TEST(Configuration, KeepsTheOrderOfATable) {
   const auto config = load_text(kGood).config;
   ASSERT_EQ(config.links.size(), 3u);

@@ -73,7 +73,13 @@ TEST(LocatedJson, SaysHowAWordThatIsNoJsonIsWritten) {
   EXPECT_EQ(refusal("{\"a\": can0}"), "line 1, column 7 (a): \"can0\" needs quotes");
   EXPECT_EQ(refusal("[.5]"), "line 1, column 2 ([0]): a number begins with a digit, as 0.5 does");
   EXPECT_EQ(refusal("[+1]"), "line 1, column 2 ([0]): a number has no + before it");
-  EXPECT_EQ(refusal("[0x28]"), "line 1, column 3 ([1]): a hexadecimal number stands in quotes");
+  EXPECT_EQ(refusal("[0x28]"),
+            "line 1, column 3 ([1]): there are no hexadecimal numbers: write 40; or, of an address "
+            "in a register map, \"0x28\" in quotes");
+  EXPECT_EQ(refusal("{\"id\": 0X1f}"),
+            "line 1, column 8 (id): there are no hexadecimal numbers: write 31; or, of an address "
+            "in a register map, \"0x1f\" in quotes");
+  EXPECT_EQ(refusal("[0xg]"), "line 1, column 3 ([1]): there are no hexadecimal numbers");
 }
 
 TEST(LocatedJson, RefusesADuplicateKeyAndTellsItsPlace) {
