@@ -9,9 +9,10 @@ namespace drover {
 namespace {
 
 /// Asked for, and nobody has written a driver: README.md tells how.
-constexpr std::array<std::string_view, 13> kSpokenByNone{
-    "vesc",  "bunker", "tracer",   "ranger",  "moteus", "cybergear", "jbd",
-    "hesai", "livox",  "velodyne", "slamtec", "ouster", "rplidar"};
+constexpr std::array<std::string_view, 18> kSpokenByNone{
+    "vesc",    "bunker", "tracer", "ranger",   "moteus",  "cybergear",
+    "jbd",     "hesai",  "livox",  "velodyne", "slamtec", "ouster",
+    "rplidar", "bno055", "bno08",  "mpu6050",  "mpu9250", "icm20948"};
 
 /// As products are written in the entries: "ZED-F9P" is zedf9p.
 std::string plain(std::string_view name) {

@@ -12,7 +12,7 @@ namespace gpio_line {
 namespace {
 
 constexpr std::string_view kLevels[] = {"low", "high"};
-constexpr std::string_view kGpioLineProducts[] = {"estop", "emergencystop", "bumper"};
+constexpr std::string_view kGpioLineProducts[] = {"estop", "emergencystop", "bumper", "button"};
 
 const OptionSpec kOptions[] = {
     {.name = "active_level",

@@ -55,7 +55,8 @@ std::unique_ptr<CanTwin> make_twin(const Options& options) {
   return std::make_unique<RobomasterTwin>(read_settings(options), read_twin_settings(options));
 }
 
-constexpr std::string_view kRobomasterC620Products[] = {"m3508", "m2006", "c610", "robomaster"};
+constexpr std::string_view kRobomasterC620Products[] = {"m3508", "m2006", "c610", "c620",
+                                                        "robomaster"};
 
 }  // namespace
 

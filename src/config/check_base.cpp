@@ -175,13 +175,19 @@ void same_number(const DeviceConfig& device, const char* key, double number, Fin
             "the same in both places");
 }
 
+/// "an agilex_v2".
+std::string with_article(const std::string& driver) {
+  const bool vowel = std::string_view("aeiou").find(driver.front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + driver;
+}
+
 /// One that steers is told no turn on the spot, and one that does not has no angle.
 void steering(const BaseNames& base, const DeviceConfig& device, const DriverEntry& entry,
               Findings& found) {
   const bool steers = base.kind == kAckermannKind;
   if (entry.steers != steers) {
     found.add("groups.base.kind",
-              "\"" + device.name + "\" is a " + device.driver + ", which " +
+              "\"" + device.name + "\" is " + with_article(device.driver) + ", which " +
                   (entry.steers ? "steers" : "does not steer"),
               entry.steers ? "\"kind\": \"ackermann\"" : "\"kind\": \"twist\"");
     return;
@@ -208,7 +214,7 @@ void twist_device(const BaseNames& base, Findings& found) {
     found.add(kPath, "there is no device \"" + base.device + "\"",
               text::did_you_mean(base.device, names));
   } else if (find_driver(it->driver) != nullptr && !is_told_twists(*it)) {
-    found.add(kPath, "\"" + base.device + "\" takes no twist: it is a " + it->driver,
+    found.add(kPath, "\"" + base.device + "\" takes no twist: it is " + with_article(it->driver),
               "a base of another kind names the joints of its wheels");
   } else if (const auto* const entry = find_driver(it->driver); entry != nullptr) {
     steering(base, *it, *entry, found);

@@ -63,6 +63,19 @@ std::string gain_meant(const std::string& key, const std::vector<std::string>& k
   return "";
 }
 
+/// One of several, each with a number.
+std::string numbered_meant(const std::string& key, const std::vector<std::string>& known) {
+  std::string all;
+  int n = 0;
+  for (const auto& each : known) {
+    const bool is_one = each.starts_with(key + "_") && each.size() == key.size() + 2 &&
+                        each.back() >= '1' && each.back() <= '9';
+    if (!is_one) continue;
+    all += (n++ == 0 ? "" : ", ") + each;
+  }
+  return n < 2 ? "" : "each motor has its own: " + all;
+}
+
 /// A height above the ground is a z here.
 std::string height_meant(const std::string& written, const std::vector<std::string>& known) {
   constexpr std::string_view kHeight = "height";
@@ -77,8 +90,9 @@ std::string height_meant(const std::string& written, const std::vector<std::stri
 
 std::string key_hint(std::string_view path, const std::string& key,
                      const std::vector<std::string>& known, std::span<const OptionSpec> options) {
-  for (auto hint : {belongs_elsewhere(path, key, options), comes_otherwise(path),
-                    radians_meant(key, known), gain_meant(key, known), height_meant(key, known)})
+  for (auto hint :
+       {belongs_elsewhere(path, key, options), comes_otherwise(path), radians_meant(key, known),
+        gain_meant(key, known), height_meant(key, known), numbered_meant(key, known)})
     if (!hint.empty()) return hint;
   return did_you_mean(key, known);
 }

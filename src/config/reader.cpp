@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "config/key_hint.h"
+#include "config/register_map.h"
 #include "text/control.h"
 #include "text/number.h"
 #include "text/suggestion.h"
@@ -30,7 +31,6 @@ std::string what_it_is(const OptionSpec& spec) {
   return text;
 }
 
-/// What to write instead, for the usual slips.
 /// "0x1f": nothing but addresses of a register map is read so.
 std::optional<unsigned> hexadecimal(std::string_view text) {
   constexpr std::string_view kBegin = "0x";
@@ -42,12 +42,13 @@ std::optional<unsigned> hexadecimal(std::string_view text) {
   return error == std::errc{} && end == last ? std::optional(value) : std::nullopt;
 }
 
+/// What to write instead, for the usual slips.
 std::string right_type(const json::Node& node, std::string_view key, std::string_view expected) {
   if (const auto* text = node.text(); text != nullptr) {
-    const auto inner = json::parse(*text);
     const auto hex = hexadecimal(*text);
     if (hex && expected.ends_with("number"))
       return "write " + std::to_string(*hex) + ", without quotes";
+    const auto inner = json::parse(*text);
     const bool number = inner && inner->root.number() && expected.ends_with("number");
     const bool flag = inner && inner->root.boolean() != nullptr && expected == "true or false";
     return number || flag ? "write it without quotes" : "";
@@ -74,6 +75,22 @@ std::string driver_meant(const std::string& written, const std::vector<std::stri
   if (const auto* entry = find_by_product(written))
     return "\"" + std::string(entry->name) + "\" speaks with it: " + std::string(entry->summary);
   return is_spoken_by_none(written) ? "no driver speaks with it" : "";
+}
+
+std::string kind_meant(const std::string& written, const std::vector<std::string>& kinds) {
+  for (const auto* const sideways : {"omni", "holonomic", "swerve"})
+    if (written.starts_with(sideways))
+      return "\"" + std::string(kMecanumKind) +
+             "\" goes sideways, on four wheels with rollers at 45 degrees; other wheels that do "
+             "are "
+             "not driven";
+  return did_you_mean(written, kinds);
+}
+
+std::string choice_meant(std::string_view key, const std::string& written,
+                         const std::vector<std::string>& choices) {
+  if (key == "driver") return driver_meant(written, choices);
+  return key == "kind" ? kind_meant(written, choices) : did_you_mean(written, choices);
 }
 
 }  // namespace
@@ -232,7 +249,7 @@ void Reader::choice(std::string_view key, std::string& into,
   if (node == nullptr || problems_.size() != before) return;
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
     return add(*node, path_of(key), "\"" + value + "\" is not one of: " + joined(choices),
-               key == "driver" ? driver_meant(value, choices) : did_you_mean(value, choices));
+               choice_meant(key, value, choices));
   into = value;
 }
 
@@ -323,7 +340,10 @@ void Reader::key_of_kind(std::string_view key, bool has, bool needs, const std::
   if (node == nullptr)
     add(node_, path_of(key), "is missing",
         whose + " needs it" +
-            (key == "is" ? "; one of: " + joined({kLineKeys.begin(), kLineKeys.end()}) : ""));
+            (key == "is" ? "; one of: " + joined({kLineKeys.begin(), kLineKeys.end()})
+             : key == "map"
+                 ? "; one of: " + joined(known_register_maps()) + ", or a file of your own"
+                 : ""));
   else if (node->text() != nullptr && node->text()->empty() && !is_told(path_of(key)))
     add(*node, path_of(key), "is empty");
 }

@@ -258,27 +258,28 @@ std::string find_register_map(const std::string& map, const std::string& folder)
   return beside.lexically_normal().string();
 }
 
-namespace {
-
-std::vector<std::string> installed_maps() {
+std::vector<std::string> known_register_maps() {
   std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(fs::path(DROVER_DATA_FOLDER) / "maps", ignored))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().filename().string());
+  for (const auto& folder : {fs::path(DROVER_DATA_FOLDER) / "maps", maps_of_the_clone()}) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      const auto name = entry.path().filename().string();
+      if (name.ends_with(".json") && !name.ends_with(".schema.json")) names.push_back(name);
+    }
+  }
   std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
-
-}  // namespace
 
 MissingMap missing_register_map(const std::string& map, const std::string& folder) {
   std::error_code ignored;
   if (fs::exists(find_register_map(map, folder), ignored)) return {};
   if (fs::path(map).is_absolute()) return {"there is no file \"" + map + "\"", ""};
-  const auto installed = installed_maps();
-  auto hint = text::did_you_mean(fs::path(map).filename().string(), installed);
+  const auto known = known_register_maps();
+  auto hint = text::did_you_mean(fs::path(map).filename().string(), known);
   if (hint.empty())
-    for (const auto& name : installed) hint += (hint.empty() ? "installed are: " : ", ") + name;
+    for (const auto& name : known) hint += (hint.empty() ? "there are: " : ", ") + name;
   const auto clone = maps_of_the_clone();
   return {"there is no \"" + map + "\" beside this file, nor among the installed maps in " +
               std::string(DROVER_DATA_FOLDER) + "/maps" +

@@ -34,6 +34,9 @@ struct MissingMap {
 };
 MissingMap missing_register_map(const std::string& map, const std::string& folder);
 
+/// The names of those that come with this program.
+std::vector<std::string> known_register_maps();
+
 /// JSON schema (draft 7) of a map file, from the same tables.
 std::string register_map_schema_text();
 

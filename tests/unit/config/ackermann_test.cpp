@@ -58,7 +58,7 @@ TEST(ABaseThatSteers, NeedsAllOfIt) {
 
 TEST(ABaseThatSteers, IsOfTheKindOfItsDevice) {
   EXPECT_THAT(told(steered_with("agilex_hunter", "agilex_v2")),
-              HasSubstr("groups.base.kind: \"chassis\" is a agilex_v2, which does not steer"));
+              HasSubstr("groups.base.kind: \"chassis\" is an agilex_v2, which does not steer"));
   EXPECT_THAT(told(steered_with(R"("ackermann")", R"("twist")")),
               HasSubstr("is of no use to a base of kind \"twist\""));
   const std::string angles = R"(
@@ -66,7 +66,7 @@ TEST(ABaseThatSteers, IsOfTheKindOfItsDevice) {
   std::string twist = steered_with(R"("ackermann")", R"("twist")");
   twist.erase(twist.find(angles), angles.size());
   EXPECT_THAT(told(twist),
-              HasSubstr("groups.base.kind: \"chassis\" is a agilex_hunter, which steers"));
+              HasSubstr("groups.base.kind: \"chassis\" is an agilex_hunter, which steers"));
 }
 
 TEST(ABaseThatSteers, HasTheNumbersOfItsDevice) {

@@ -107,14 +107,34 @@ TEST(ConfigurationChecks, SayWhichDriverSpeaksWithAProductOrThatNoneDoes) {
     EXPECT_THAT(told(motor), HasSubstr("(\"damiao\" speaks with it")) << motor;
   for (const auto* const imu : {"hi12", "HI14", "ch104"})
     EXPECT_THAT(told(imu), HasSubstr("(\"hipnuc_can\" speaks with it")) << imu;
+  EXPECT_THAT(told("c620"), HasSubstr("(\"robomaster_c620\" speaks with it"));
   EXPECT_THAT(told("wt901c"), HasSubstr("(\"witmotion\" speaks with it"));
   EXPECT_THAT(told("JK"), HasSubstr("(\"modbus_bms\" speaks with it"));
   EXPECT_THAT(told("dm"), HasSubstr("(\"damiao\" speaks with it"));
   EXPECT_THAT(told("admiral"), Not(HasSubstr("speaks with"))) << "a maker's two letters in a word";
-  for (const auto* const contact : {"estop", "e-stop", "bumper"})
+  for (const auto* const contact : {"estop", "e-stop", "bumper", "button"})
     EXPECT_THAT(told(contact), HasSubstr("(\"gpio_line\" speaks with it")) << contact;
-  for (const auto* const unknown : {"bunker", "VESC", "JBD", "hesai"})
+  for (const auto* const unknown : {"bunker", "VESC", "JBD", "hesai", "bno085", "MPU-6050"})
     EXPECT_THAT(told(unknown), HasSubstr("(no driver speaks with it)")) << unknown;
+}
+
+TEST(ConfigurationChecks, SayWhichBaseGoesSideways) {
+  const auto told = [](const std::string& kind) {
+    return problems(with("\"skid_steer\"", "\"" + kind + "\""));
+  };
+  EXPECT_THAT(told("omni"), HasSubstr("(\"mecanum\" goes sideways, on four wheels with rollers at "
+                                      "45 degrees; other wheels that do are not driven)"));
+  EXPECT_THAT(told("holonomic"), HasSubstr("(\"mecanum\" goes sideways"));
+  EXPECT_THAT(told("mecanun"), HasSubstr("(did you mean \"mecanum\"?)"));
+}
+
+TEST(ConfigurationChecks, AskForOneReversedOfEachWheel) {
+  const auto told = problems(with(
+      "\"estop\": {", R"("rollers": {"driver": "robomaster_c620", "link": "can0", "options": {)"
+                      R"("velocity_gain_Nms_per_rad": 0.3, "reversed": true}},
+    "estop": {)"));
+  EXPECT_THAT(told, HasSubstr("devices.rollers.options.reversed: is no known key (each motor has "
+                              "its own: reversed_1, reversed_2, reversed_3, reversed_4)"));
 }
 
 /// Or one name would be two drivers'.

@@ -307,6 +307,20 @@ TEST(ConfigurationChecks, TellOfABatteryThatIsAskedAtAnotherSpeedThanItsMapKnows
               differs);
 }
 
+TEST(ConfigurationChecks, SayWhichMapsThereAreWhereNoneOrAMisspeltOneIsNamed) {
+  const auto told = [](const std::string& map) {
+    auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"}, \"panel\"");
+    return problems(
+        text.insert(text.find("    \"estop\""),
+                    R"("pack": {"driver": "modbus_bms", "link": "bms")" + map + "},\n"));
+  };
+  EXPECT_THAT(told(""), HasSubstr("devices.pack.map: is missing (modbus_bms needs it; one of: "
+                                  "daly_d2.json, jk_pb.json, or a file of your own)"));
+  EXPECT_THAT(told(R"(, "map": "jk")"), HasSubstr("(did you mean \"jk_pb.json\"?)"));
+  EXPECT_THAT(told(R"(, "map": "bms_of_mine.json")"),
+              HasSubstr("(there are: daly_d2.json, jk_pb.json)"));
+}
+
 TEST(ConfigurationChecks, SayWhereTheyLookedForAMapThatIsNotThere) {
   const auto with_map = [](const std::string& map) {
     auto text = with("\"panel\"", "\"bms\": {\"modbus\": \"/dev/bms\"}, \"panel\"");
@@ -317,7 +331,7 @@ TEST(ConfigurationChecks, SayWhereTheyLookedForAMapThatIsNotThere) {
   const auto told = problems(with_map("maps/none_of_mine.json"));
   EXPECT_THAT(told, StartsWith("f:8:56: devices.pack.map: there is no \"maps/none_of_mine.json\" "
                                "beside this file, nor among the installed maps in /"));
-  EXPECT_THAT(told, testing::AnyOf(HasSubstr("(installed are: "), HasSubstr("(did you mean "),
+  EXPECT_THAT(told, testing::AnyOf(HasSubstr("(there are: "), HasSubstr("(did you mean "),
                                    HasSubstr("(none are installed there)")));
   EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
   EXPECT_EQ(problems(with_map("/no/such/map.json")),
