@@ -159,7 +159,11 @@ void add_status_command(CLI::App& app, Settings& s, int& code) {
 void add_place_commands(CLI::App& app, Settings& s, int& code) {
   auto* heading = app.add_subcommand("heading", "direction of the robot")->require_subcommand(1);
   auto* find = heading->add_subcommand(
-      "find", "DRIVES a short way straight ahead, so that one antenna shows the heading");
+      "find",
+      "DRIVES a short way straight ahead, so that one antenna shows the heading. WATCH THAT IT "
+      "GOES "
+      "AHEAD: when it goes back, stop it, the wheels' signs are wrong, and the heading would be "
+      "found the wrong way round");
   find->add_flag("--json", s.json, "one JSON object");
   find->callback([&] { code = run(s, request("heading_find")); });
 

@@ -54,6 +54,8 @@ class Printer final {
     notes_ << what << ' ' << count;
     if (bad_ > 0) notes_ << ", malformed " << bad_;
     if (problems_ > 0) notes_ << ", lines not understood " << problems_;
+    if (count == 0 && bad_ == 0 && problems_ == 0)
+      notes_ << ": the recording is empty, or nothing in it is of this device";
     notes_ << '\n';
     return count > 0 ? kDone : kRefused;
   }

@@ -300,7 +300,9 @@ std::string show_status(const Node& status) {
 
 std::string show_tracks(const Node& tracks) {
   const auto* list = tracks.list();
-  if (list == nullptr || list->empty()) return "no track is saved\n";
+  if (list == nullptr || list->empty())
+    return "no track is saved: an operator's program sends them over MQTT "
+           "(src/publish/README.md)\n";
   std::string out;
   for (const auto& track : *list) {
     out += padded(text(at(track, "name")), 32) + quantity(at(track, "points"), "%6.0f points") +

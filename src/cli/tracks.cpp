@@ -49,7 +49,11 @@ void add_track_commands(CLI::App& app, const std::string& socket, int& code) {
   const auto answer = [&socket](const std::string& question) {
     return read_reply(ask(socket, question));
   };
-  auto* traj = app.add_subcommand("traj", "saved tracks")->require_subcommand(1);
+  auto* traj =
+      app.add_subcommand(
+             "traj",
+             "saved tracks: an operator's program sends them over MQTT (src/publish/README.md)")
+          ->require_subcommand(1);
   auto* list = traj->add_subcommand("list", "name, points and length of each");
   list->add_flag("--json", s->json, "one JSON object");
   list->callback([s, answer, &code] {

@@ -17,6 +17,10 @@ struct Example {
   std::string_view lines;
 };
 
+constexpr std::string_view kHeadingFind =
+    "  drover heading find            # THE ROBOT DRIVES, up to 3 m straight ahead:\n"
+    "                                 # watch that it goes ahead, or: drover stop";
+
 constexpr Example kExamples[] = {
     {"status",
      "  drover status --watch          # again and again\n"
@@ -79,9 +83,8 @@ constexpr Example kExamples[] = {
      "  drover zone list --json"},
     {"zone delete", "  drover zone delete greenhouse"},
     {"zone forget-unreadable", "  drover zone forget-unreadable # after: drover zone list"},
-    {"heading", "  drover heading find            # THE ROBOT DRIVES, up to 3 m straight ahead"},
-    {"heading find",
-     "  drover heading find            # THE ROBOT DRIVES, up to 3 m straight ahead"},
+    {"heading", kHeadingFind},
+    {"heading find", kHeadingFind},
     {"position", "  drover position accept         # after: a look at the map, and at the robot"},
     {"position accept",
      "  drover position accept         # after: a look at the map, and at the robot"},

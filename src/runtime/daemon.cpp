@@ -40,10 +40,16 @@ using namespace std::chrono_literals;
 
 /// One daemon on a robot: two would fight over the drives.
 link::UniqueFd take_lock(const std::string& folder) {
-  ::mkdir(folder.c_str(), 0755);
+  if (::mkdir(folder.c_str(), 0755) != 0 && errno != EEXIST)
+    throw std::runtime_error(
+        link::problem_text("paths.run: " + folder, "cannot make this folder", errno) +
+        " (systemd-tmpfiles --create drover.conf makes /run/drover)");
   const auto path = folder + "/droverd.lock";
   link::UniqueFd fd(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
-  if (!fd) throw std::runtime_error(link::problem_text(path, "cannot open", errno));
+  if (!fd)
+    throw std::runtime_error(link::problem_text(path, "cannot open", errno) +
+                             " (paths.run has to be a folder that droverd may write in; "
+                             "systemd-tmpfiles --create drover.conf makes /run/drover)");
   if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {
     char pid[16] = {};
     (void)!::pread(fd.get(), pid, sizeof pid - 1, 0);

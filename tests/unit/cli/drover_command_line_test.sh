@@ -100,6 +100,13 @@ expect "also to programs" 3 out 'journalctl -u droverd' traj list --json
 expect "and to a program as JSON" 3 out '{"ok":false,"reason":"' status --json
 [[ ! -s $work/err ]]
 verdict $? "and nothing else is said then"
+expect "the help of tracks says how they come" 0 out 'src/publish/README.md' traj --help
+expect "who finds a heading is told to watch that the robot goes ahead" 0 out \
+  'WATCH THAT IT GOES AHEAD' heading find --help
+expect "also before the verb is chosen" 0 out 'watch that it goes ahead' heading --help
+expect "a recording in which nothing is says so" 1 err \
+  'measurements 0: the recording is empty, or nothing in it is of this device' \
+  gnss --driver nmea0183 --file /dev/null
 expect "a device's view says so as JSON, too" 3 out '{"ok":false,"reason":"' gnss --json
 expect "wrong usage is JSON for programs" 2 out '{"ok":false,"reason":"' \
   task start 'row 7' --json

@@ -51,4 +51,9 @@ expect "and its new text is printed" 2 '"can7": {"can": "can7"}' --check "$work/
 expect "the schema is printed" 0 "json-schema.org/draft-07" --schema
 expect "the version is printed" 0 "." --version
 expect "the help is printed" 0 "--check" --help
+sed 's|^{|{ "paths": {"run": "'"$work"'/none/run"},|' \
+  "$(dirname "$0")/../../../config/examples/two_hub_motors.json" > "$work/no_folder.json"
+expect "a folder that is not there is told with who makes it" 2 \
+  "$work/none/run: cannot make this folder: No such file or directory (systemd-tmpfiles --create" \
+  --config "$work/no_folder.json"
 exit "$failed"
