@@ -4,6 +4,7 @@
 #include <mqtt_protocol.h>
 #include <sys/ioctl.h>
 #include <sys/random.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,6 +13,8 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+
+#include "runtime/log.h"
 
 namespace drover::runtime {
 
@@ -34,11 +37,25 @@ std::string random_client_id() {
   return text;
 }
 
-/// Nothing when there is no file, or nothing in it (it is being written).
-std::optional<std::string> read_password(const std::string& path) {
+struct Password {
+  std::string text;
+  std::string problem;  ///< empty: it was read
+  bool everybody_reads = false;
+};
+
+/// An empty file may be one that is being written.
+Password read_password(const std::string& path) {
+  errno = 0;
   std::ifstream file(path);
-  std::string password;
-  if (!file || !std::getline(file, password)) return std::nullopt;
+  Password password;
+  struct stat is = {};
+  if (!file || ::stat(path.c_str(), &is) != 0)
+    password.problem = "cannot read " + path + ": " + std::strerror(errno);
+  else if (S_ISDIR(is.st_mode))
+    password.problem = path + " is a folder";
+  else if (!std::getline(file, password.text) || password.text.empty())
+    password.problem = path + " is empty";
+  password.everybody_reads = (is.st_mode & S_IROTH) != 0;
   return password;
 }
 
@@ -243,13 +260,18 @@ void MqttClient::tick(Time now) {
 /// Read at each try: who sets up the broker may write the file after droverd was started.
 bool MqttClient::read_credentials() {
   if (config_.username.empty()) return true;
-  const std::optional<std::string> password =
-      config_.password_file.empty() ? std::string() : read_password(config_.password_file);
-  if (!password) {
-    failed("mqtt.password_file: cannot read " + config_.password_file);
+  const Password password =
+      config_.password_file.empty() ? Password{} : read_password(config_.password_file);
+  if (!password.problem.empty()) {
+    failed("mqtt.password_file: " + password.problem);
     return false;
   }
-  ::mosquitto_username_pw_set(client_, config_.username.c_str(), password->c_str());
+  if (password.everybody_reads && tells_presence_ && !open_file_told_) {
+    open_file_told_ = true;
+    log(LogLevel::warning, "mqtt.password_file: everybody on this computer may read " +
+                               config_.password_file + " (chgrp drover and chmod 0640 close it)");
+  }
+  ::mosquitto_username_pw_set(client_, config_.username.c_str(), password.text.c_str());
   return true;
 }
 

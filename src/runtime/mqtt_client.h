@@ -93,6 +93,7 @@ class MqttClient final {
   OnMessage on_message_;
   OnState on_state_;
   bool tells_presence_;
+  bool open_file_told_ = false;  ///< that others may read the password
   mosquitto* client_ = nullptr;
   int version_ = 0;
   bool connected_ = false;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -45,7 +46,8 @@ TEST_F(MqttClientWithAPassword, StartsWithoutThePasswordFileAndSaysOnceThatTheBr
   auto without = client();
   for (int s = 1; s < 10; ++s) without.tick(Time{seconds(s)});
   EXPECT_THAT(said, ElementsAre(AllOf(HasSubstr("no-broker.sock"), HasSubstr("password_file"),
-                                      HasSubstr(config.password_file))));
+                                      HasSubstr("cannot read " + config.password_file),
+                                      HasSubstr("No such file or directory"))));
   EXPECT_EQ(without.connections(), 0u);  // nobody is asked without it
 }
 
@@ -63,7 +65,31 @@ TEST_F(MqttClientWithAPassword, TakesAnEmptyPasswordFileAsMissing) {
   std::ofstream(config.password_file).flush();
   auto without = client();
   without.tick(Time{seconds(1)});
-  EXPECT_THAT(said, ElementsAre(HasSubstr("password_file")));
+  EXPECT_THAT(said,
+              ElementsAre(HasSubstr("mqtt.password_file: " + config.password_file + " is empty")));
+}
+
+TEST_F(MqttClientWithAPassword, SaysThatAFolderIsNoPasswordFile) {
+  std::filesystem::create_directory(config.password_file);
+  auto without = client();
+  without.tick(Time{seconds(1)});
+  EXPECT_THAT(said, ElementsAre(HasSubstr("password is a folder")));
+}
+
+TEST_F(MqttClientWithAPassword, WarnsOnceOfAPasswordThatEverybodyMayRead) {
+  std::ofstream(config.password_file) << "secret\n";
+  const auto warned = [this](std::filesystem::perms mode) {
+    std::filesystem::permissions(config.password_file, mode);
+    auto with = client();
+    testing::internal::CaptureStderr();
+    for (int s = 1; s < 10; ++s) with.tick(Time{seconds(s)});
+    return testing::internal::GetCapturedStderr();
+  };
+  const auto told = warned(std::filesystem::perms{0644});
+  EXPECT_THAT(told, HasSubstr("mqtt.password_file: everybody on this computer may read " +
+                              config.password_file));
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+  EXPECT_THAT(warned(std::filesystem::perms{0640}), Not(HasSubstr("password_file")));
 }
 
 }  // namespace
