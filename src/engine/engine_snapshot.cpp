@@ -173,6 +173,12 @@ void Engine::Impl::fill_snapshot(Time now, const Environment& environment, const
   if (owner == Owner::nobody && !owners.no_heading().empty())
     snapshot.tell_why(owners.no_heading());
   for (const Reason& reason : report.why) snapshot.tell_why(reason);
+  // Of a battery that is empty, but not for long enough to end anything: a sag, were it driven.
+  const bool is_told = std::any_of(report.why.begin(), report.why.end(), [&](const Reason& each) {
+    return each.view() == report.no_start.view();
+  });
+  if (owner == Owner::nobody && !report.no_start.empty() && !is_told)
+    snapshot.tell_why(report.no_start);
   snapshot.why_untold += report.why_untold;
   if (const Reason waits = navigator.waits_for(report); !waits.empty()) snapshot.tell_why(waits);
   if (latch.power_cut()) snapshot.tell_why("the drives have no power: drover reset");

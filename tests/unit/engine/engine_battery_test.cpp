@@ -128,7 +128,7 @@ TEST_F(AnEngineWithABattery, RefusesAStartWithOneThatIsEmptyJustNow) {
     sample.soc_percent = percent;
     tell();
     rig.tick();
-    EXPECT_EQ(rig.why(), "") << "it may be a sag";
+    EXPECT_EQ(rig.why(), reason) << "what a start would be refused for is told at rest";
     rig.start(path, 40, 0.5);
     rig.tick();
     EXPECT_EQ(refusal(), reason);
@@ -142,6 +142,23 @@ TEST_F(AnEngineWithABattery, LetsATaskGoOnThroughASag) {
   tell();
   rig.run_s(5);
   EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run);
+  EXPECT_EQ(rig.why(), "") << "it may be a sag";
+}
+
+TEST_F(AnEngineWithABattery, TellsAtRestOnceWhyNothingWouldStart) {
+  rig.settle();
+  sample.soc_percent = 5;
+  for (int i = 0; i < 22; ++i) {
+    tell();
+    rig.run_s(1);
+    const auto& why = rig.snapshot().why;
+    ASSERT_EQ(why.size(), 1u) << "after " << i << " s";
+    EXPECT_EQ(why[0].view(), "battery empty: 5 %, at least 10 % are needed");
+  }
+  sample.soc_percent = 70;
+  tell();
+  rig.tick();
+  ASSERT_EQ(rig.snapshot().why.size(), 1u) << "it was empty a moment ago";
 }
 
 TEST_F(AnEngineWithABattery, LetsNothingNewBeginWithALowOneAndAStreamGoOn) {
