@@ -77,7 +77,7 @@ TEST(LocatedJson, SaysHowAWordThatIsNoJsonIsWritten) {
             "line 1, column 3 ([1]): there are no hexadecimal numbers: write 40; or, of an address "
             "in a register map, \"0x28\" in quotes");
   EXPECT_EQ(refusal("{\"id\": 0X1f}"),
-            "line 1, column 8 (id): there are no hexadecimal numbers: write 31; or, of an address "
+            "line 1, column 9: there are no hexadecimal numbers: write 31; or, of an address "
             "in a register map, \"0x1f\" in quotes");
   EXPECT_EQ(refusal("[0xg]"), "line 1, column 3 ([1]): there are no hexadecimal numbers");
 }
