@@ -169,6 +169,36 @@ TEST(HunterUnfed, StopsByItselfAndStaysAtRestUntilItIsStarted) {
   EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
 }
 
+/// The angle of its inner wheel, as it is told and as it says.
+double angle_rad(const CanLine& line) {
+  return static_cast<std::int16_t>(line.frame.data[6] * 256 + line.frame.data[7]) * 0.001;
+}
+
+/// Its speeds while it is caught are no curve.
+TEST(HunterRemote, KeepsItsWheelsAsTheyAreWhenItIsGivenBackInABend) {
+  const Record& log = record("hunter_remote");
+  const Time taken = log.event("event taken#1");
+  const Time back = log.event("event given_back#1");
+  const Time again = next_start(log, back);
+  ASSERT_TRUE(moved_until(log, taken));
+  double left_rad = 0;
+  double most_beside_rad = 0;
+  std::size_t told = 0;
+  for (const CanLine& line : log.can) {
+    if (line.time < taken || line.time > again - 50ms) continue;
+    if (line.frame.id == 0x221 && line.time < back) left_rad = angle_rad(line);
+    if (line.time < back || (line.frame.id != 0x111 && line.frame.id != 0x221)) continue;
+    told += line.frame.id == 0x111 ? 1 : 0;
+    most_beside_rad = std::max(most_beside_rad, std::abs(angle_rad(line) - left_rad));
+  }
+  figure("turned its wheels by", most_beside_rad, "rad");
+  EXPECT_GT(std::abs(left_rad), 0.15) << "it was not in its bend";
+  EXPECT_GT(told, 400U) << "nobody told it anything after that";
+  EXPECT_LT(most_beside_rad, 0.03);
+  expect_rest_until_started(log, log.first_status("NAV_ERROR", taken).time + 1s);
+  expect_new_start_succeeds(log, back);
+}
+
 TEST(HunterStuck, EndsItsTaskInsideOfItsCorridorAndSaysWhy) {
   const Record& log = record("hunter_stuck");
   const Time stuck = log.event("sim drive chassis fault steering_stuck");

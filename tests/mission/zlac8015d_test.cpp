@@ -107,6 +107,41 @@ TEST(Zlac8015dTornMotor, OfWhichTheDriveSaysNothingIsToldAndLeavesTheRobotOnItsT
   EXPECT_NEAR(log.truth.back().vx_mps, 0, 0.01);
 }
 
+// Its own time-out would let go of it.
+TEST(Zlac8015dMuteOnRamp, HoldsTheRobotThoughItsAnswersAreLost) {
+  const Record& log = record("zlac8015d_mute_on_ramp");
+  const Time mute = log.event("event mute#1");
+  const Time heard = log.event("event heard#1");
+  const Time end = log.event("event looked_at#1");
+  ASSERT_GT(log.truth_at(mute).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
+  const double way_m = roll(log, mute, end).way_m;
+  figure("way while it is not heard and set up anew", way_m, "m");
+  EXPECT_LT(way_m, 0.01);
+  Time before = mute;
+  Duration longest{};
+  for (const auto& line : log.can) {
+    if (line.time <= mute || line.time > heard) continue;
+    const auto targets = zlac8015d::targets_turnps(line.frame);
+    if (!targets) continue;
+    EXPECT_TRUE((*targets)[0] == 0 && (*targets)[1] == 0) << "at " << seconds(line.time);
+    longest = std::max(longest, line.time - before);
+    before = line.time;
+  }
+  EXPECT_LE(std::max(longest, heard - before), 15ms);
+}
+
+TEST(Zlac8015dMuteOnRamp, IsToldAsSilentAndStartsAnewWhenItIsHeard) {
+  const Record& log = record("zlac8015d_mute_on_ramp");
+  const Time mute = log.event("event mute#1");
+  const auto silent = std::find_if(log.statuses.begin(), log.statuses.end(), [&](const auto& each) {
+    return each.time > mute && each.why.find("no drive answers") != std::string::npos;
+  });
+  ASSERT_NE(silent, log.statuses.end());
+  EXPECT_LT(silent->time - mute, 1s);
+  EXPECT_LT(next_start(log, log.event("event looked_at#1")), Time::max());
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+}
+
 TEST(Zlac8015dDipOnRamp, SetsTheDriveUpAnewAndHoldsTheRobotAgain) {
   const Record& log = record("zlac8015d_dip_on_ramp");
   const Time dipped = log.event("event dipped#1");
