@@ -17,6 +17,8 @@ constexpr Duration kZerosAfterGap = milliseconds(200);
 /// Of speeds that are nearly zero the one divided by the other is no curve; nor is it while a base
 /// is caught, whose speeds fall one by one.
 constexpr double kSlowestCurve_mps = 0.01;
+/// Wheels are so far behind of what they are told while they turn, and come to it.
+constexpr double kOnTheirWay_rad = 0.15;
 /// Of a Hunter. It rests for so long before its brake is locked: what still rolls is not thrown
 /// into it.
 constexpr Duration kStillBeforeBrake = milliseconds(300);
@@ -117,13 +119,18 @@ void AgilexV2Driver::command(const Twist& twist, Time now, DriverOut& out) {
 }
 
 /// A Hunter is steered by who drives it. At rest, and on its way there, its wheels stay as they
-/// were when that ended: what it was asked last it may never have been told. As they are, where
-/// somebody else steers them meanwhile.
+/// were when that ended: what is far from there it was asked last, and never told. As they are,
+/// where somebody else steers them meanwhile.
 void AgilexV2Driver::steer(const Twist& twist, Time now) {
-  const bool drives = request_ == AxisRequest::run && std::abs(twist.vx_mps) >= kSlowestCurve_mps;
+  const double speed_mps = std::abs(twist.vx_mps);
+  // From rest on it is steered as it begins to roll: what it can drive is a curve at any speed.
+  const bool possible = speed_mps > 0 && std::abs(twist.wz_radps) <=
+                                             speed_mps * steering_->radpm(steering_->most_rad);
+  const bool drives = request_ == AxisRequest::run && (possible || speed_mps >= kSlowestCurve_mps);
   if (drives) {
     asked_inner_rad_ = steering_->inner_rad(twist.wz_radps / twist.vx_mps);
-  } else if (was_steered_ || status(now).state != AxisState::running) {
+  } else if (status(now).state != AxisState::running ||
+             (was_steered_ && std::abs(asked_inner_rad_ - inner_rad_) > kOnTheirWay_rad)) {
     asked_inner_rad_ = inner_rad_;
   }
   was_steered_ = drives;
