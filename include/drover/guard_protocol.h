@@ -14,7 +14,7 @@
 
 namespace drover {
 
-inline constexpr std::uint32_t kGuardVersion = 3;
+inline constexpr std::uint32_t kGuardVersion = 4;
 inline constexpr std::size_t kGuardMaxLinks = 8;
 inline constexpr std::size_t kGuardMaxAxes = 64;
 inline constexpr std::size_t kGuardMaxMessages = 512;
@@ -29,7 +29,8 @@ enum class GuardVerb : std::uint32_t {
   watch,         ///< the set is whole
   hand_back,     ///< the daemon asks for the bus
   pulse_line,  ///< with the handle of the line that feeds a hardware watchdog; stays with the guard
-  relay_line,  ///< with the enable relay's line handle; `name`. Held open, never written
+  relay_line,  ///< with the enable relay's line handle; `name`. Held open, and opened for an axis
+               ///< that runs on and cannot be reached
   lend,        ///< asks for a duplicate of what is kept as `name`; the answer is `lend` with it,
                ///< or without when there is none
   let_go,      ///< closes what is kept as `name`: it is dead, or to be opened anew
@@ -53,6 +54,9 @@ struct GuardMessage {
   /// axis: 1: it holds only by what droverd tells it, the recipe cannot. A stop at the stop socket
   /// leaves it to a droverd whose heartbeat is good, which hears of the stop.
   std::uint32_t held_by_daemon = 0;
+  /// axis: 1: nothing stops it when nothing reaches it, it goes on by its last message. Its supply
+  /// is cut then, by the line of `relay_line`.
+  std::uint32_t runs_on = 0;
   std::uint32_t limit_ms = 50;  ///< hello: a heartbeat later than this is too late
   GuardLinkKind kind = GuardLinkKind::can;
   std::uint32_t size = 0;  ///< stop_message: bytes used

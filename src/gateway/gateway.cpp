@@ -311,7 +311,9 @@ std::vector<LinkDuty> Gateway::duties() const {
     if (slot.made.actuator == nullptr) continue;
     LinkDuty& duty = all[slot.link];
     const StopRecipe recipe = slot.made.actuator->stop_recipe();
-    duty.stops.push_back({recipe, !slot.of_base && recipe.ends != StopEnds::holds});
+    const bool held_by_daemon = !slot.of_base && recipe.ends != StopEnds::holds;
+    const bool runs_on = slot.of_base && !slot.made.actuator->silence().stops;
+    duty.stops.push_back({recipe, held_by_daemon, runs_on});
     duty.messages_per_cycle += slot.made.actuator->messages_per_cycle();
   }
   return all;

@@ -38,6 +38,7 @@ struct StreamOutput {
 struct GuardDuty {
   StopRecipe recipe;
   bool held_by_daemon = false;  ///< the gateway can hold it, and the recipe cannot
+  bool runs_on = false;         ///< a drive of the base that no silence stops
 };
 
 /// What the drives on a link need of those who serve it.

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "guard/clock.h"
 
@@ -80,6 +81,7 @@ void Guard::act(Time t) {
   if (!all) whose = StopSet::Whose::daemons;
   if (daemon_holds) whose = StopSet::Whose::not_daemons;
   if (plays) set_.play(t, whose);
+  if (plays && set_.runs_on(t)) cut_supply();
   // Drives that nobody can stop are the hardware watchdog's.
   if (!plays || set_.in_command(t)) pulse();
 }
@@ -124,6 +126,17 @@ void Guard::pulse() {
   speech_.say("drover-guard: the watchdog's line is gone (%s)", ::strerrordesc_np(errno));
   ::close(pulse_line_);
   pulse_line_ = -1;
+}
+
+/// What nothing reaches, and nothing else stops. A droverd that only hung writes the line anew, and
+/// then it sees by itself that its drives are not there; where it is gone the line falls.
+void Guard::cut_supply() {
+  if (relay_line_ < 0) return;
+  gpio_v2_line_values values{};
+  values.mask = 1;
+  ::ioctl(relay_line_, GPIO_V2_LINE_SET_VALUES_IOCTL, &values);
+  ::close(std::exchange(relay_line_, -1));
+  speech_.say("drover-guard: a drive that would run on is not reached: the enable relay is opened");
 }
 
 /// droverd's word while it runs; a new daemon has none before its first cycle, and then the last

@@ -37,6 +37,7 @@ class Guard final : public StopListener {
   void publish();
   void tell(Time t, bool was_holding);
   void pulse();
+  void cut_supply();
   bool may_hold();
   std::uint64_t beats() const;
 

@@ -17,6 +17,8 @@ namespace {
 constexpr std::uint32_t kShortestPeriod_ms = 10;
 constexpr std::uint32_t kLongestPeriod_ms = 1000;
 constexpr int kForgivenPeriods = 5;
+/// A line that was full for a moment takes the next round.
+constexpr Duration kRunsOnFor = std::chrono::milliseconds(150);
 /// The guard looks each 10 ms: what is due nearer to this look than to the next goes now.
 constexpr Duration kHalfACycle = std::chrono::milliseconds(5);
 
@@ -107,6 +109,7 @@ bool StopSet::add_axis(const GuardMessage& message) {
   axis.rounds = message.rounds;
   axis.period = std::chrono::milliseconds(message.period_ms);
   axis.held_by_daemon = message.held_by_daemon == 1;
+  axis.runs_on = message.runs_on == 1;
   return true;
 }
 
@@ -186,7 +189,7 @@ void StopSet::begin_hold() {
   }
   for (auto& axis : axes_) {
     axis.round = 0;
-    axis.due = kNever;
+    axis.due = axis.missed = kNever;
   }
 }
 
@@ -210,7 +213,11 @@ void StopSet::play(Time now, Whose whose) {
         ++unsent_;
       }
     }
-    if (!taken) continue;  // the same round again: a counter in it must not jump
+    if (!taken) {  // the same round again: a counter in it must not jump
+      if (axis.missed == kNever) axis.missed = now;
+      continue;
+    }
+    axis.missed = kNever;
     axis.reached = now;
     axis.round = (axis.round + 1) % axis.rounds;
   }
@@ -221,6 +228,14 @@ bool StopSet::in_command(Time now) const {
                      [this, now](const Axis& axis) {
                        return !links_[axis.link].was_there ||
                               now - axis.reached <= kForgivenPeriods * axis.period;
+                     });
+}
+
+bool StopSet::runs_on(Time now) const {
+  return std::any_of(axes_.begin(), axes_.begin() + static_cast<std::ptrdiff_t>(axis_count_),
+                     [now](const Axis& axis) {
+                       return axis.runs_on && axis.missed != kNever &&
+                              now - axis.missed >= kRunsOnFor;
                      });
 }
 
@@ -305,6 +320,7 @@ void StopSet::tell(std::vector<GuardMessage>& words) const {
     word.period_ms = static_cast<std::uint32_t>(
         std::chrono::duration_cast<std::chrono::milliseconds>(axis.period).count());
     word.held_by_daemon = axis.held_by_daemon ? 1 : 0;
+    word.runs_on = axis.runs_on ? 1 : 0;
     word.name = axis.name;
   }
   for (std::size_t i = 0; i < message_count_; ++i) {

@@ -60,6 +60,8 @@ class StopSet final {
   /// Each axis was reached within its last five periods. True without any axis. What hangs on a
   /// link that never was there does not count: nobody can have moved it.
   bool in_command(Time now) const;
+  /// An axis that nothing but its supply stops was not reached for too long.
+  bool runs_on(Time now) const;
 
   /// Those on a link that is, or once was, there.
   std::size_t axes() const;
@@ -99,8 +101,10 @@ class StopSet final {
     std::uint32_t round = 0;  ///< the next
     Duration period{};
     bool held_by_daemon = false;
+    bool runs_on = false;
     Time due = kNever;
     Time reached = kNever;
+    Time missed = kNever;  ///< since then none of its rounds left; kNever: the last one did
   };
   struct Message {
     std::uint32_t axis = 0;

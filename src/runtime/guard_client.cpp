@@ -129,6 +129,7 @@ bool GuardClient::send_axis(std::uint32_t index, std::uint32_t link, const Guard
   message.rounds = static_cast<std::uint32_t>(axis.rounds.size());
   message.period_ms = static_cast<std::uint32_t>(axis.period.count());
   message.held_by_daemon = axis.held_by_daemon ? 1 : 0;
+  message.runs_on = axis.runs_on ? 1 : 0;
   if (!set_name(message, axis.name) || !send(message)) return false;
   message.verb = GuardVerb::stop_message;
   for (message.round = 0; message.round < axis.rounds.size(); ++message.round) {

@@ -18,7 +18,9 @@ struct GuardedAxis {
   std::string name;  ///< what it is on the wire: the link's name and its address there
   std::chrono::milliseconds period{10};
   std::vector<std::vector<std::vector<std::uint8_t>>> rounds;  ///< messages as they are written
-  bool held_by_daemon = false;                                 ///< as in GuardMessage
+  // As in GuardMessage:
+  bool held_by_daemon = false;
+  bool runs_on = false;
 };
 
 /// What the guard must do for one link.

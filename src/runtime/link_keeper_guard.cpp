@@ -25,6 +25,7 @@ GuardedLink LinkKeeper::guarded_link(std::size_t slot) {
   for (const auto& stop : duties_[slot].stops) {
     link.axes.push_back(guarded_axis(link.name, stop.recipe));
     link.axes.back().held_by_daemon = stop.held_by_daemon;
+    link.axes.back().runs_on = stop.runs_on;
   }
   if (slots_[slot].open) open_for_guard(slot, link);
   return link;

@@ -453,4 +453,32 @@ TEST_F(Guard, TheRelaysLineFallsWhenTheLastOfBothIsGone) {
   EXPECT_TRUE(fallen());
 }
 
+/// Of drives without a time-out of their own: the guard's zeros do not arrive, and the last word
+/// that did was to drive.
+TEST_F(Guard, TheRelaysLineFallsWhereADriveThatRunsOnIsNotReached) {
+  for (const bool runs_on : {true, false}) {
+    kill();
+    new_daemon();
+    start();
+    std::array<int, 2> line{};
+    ASSERT_EQ(::pipe2(line.data(), O_CLOEXEC | O_NONBLOCK), 0);
+    const link::UniqueFd relay(line[0]);
+    const auto fallen = [&] {
+      char byte = 0;
+      return ::read(relay.get(), &byte, 1) == 0;
+    };
+    std::vector<runtime::GuardedLink> links;
+    links.push_back(can_link("can0", {0x200}));  // its drives' end is not read
+    links.back().axes[0].runs_on = runs_on;
+    hand_over(std::move(links));
+    ASSERT_TRUE(client().give_relay_line("gpio17", line[1]));
+    EXPECT_FALSE(client().borrow("gpio16")) << "an answer, so that the line has arrived";
+    ::close(line[1]);
+    daemon_dies_after(20ms);
+    ASSERT_TRUE(wait_until([&] { return shared().unsent > 50; })) << "can0 is full";
+    EXPECT_EQ(fallen(), runs_on);
+    if (runs_on) EXPECT_THAT(output(), HasSubstr("the enable relay is opened"));
+  }
+}
+
 }  // namespace drover::test

@@ -127,12 +127,13 @@ INSTANTIATE_TEST_SUITE_P(
         "hunter_kill_in_bend", "hunter_unfed", "hunter_remote", "robomaster_stuck",
         "robomaster_mute", "robomaster", "robomaster_silent", "robomaster_kill", "mecanum",
         "mecanum_silent", "mecanum_kill", "both_hang", "mecanum_sideways", "mecanum_sideways_kill",
-        "mecanum_sideways_silent", "scene_backwards", "scene_box", "scene_near", "scene_pole",
-        "scene_person", "scene_refused", "scene_keep_out", "scene_keep_in", "scene_beside",
-        "scene_pivot", "scene_planes", "scene_mouth", "scene_wall_behind", "scene_stamps",
-        "scene_origin", "scene_constraint", "scene_reverse", "scene_aside", "scene_edge",
-        "scene_heading", "scene_worker", "scene_restart", "lidar_box", "lidar_covered", "lidar_sun",
-        "lidar_frozen", "lidar_unplugged", "lidar_ramp", "lidar_pivot", "lidar_pivot_hidden"),
+        "mecanum_unplug_kill", "mecanum_sideways_silent", "scene_backwards", "scene_box",
+        "scene_near", "scene_pole", "scene_person", "scene_refused", "scene_keep_out",
+        "scene_keep_in", "scene_beside", "scene_pivot", "scene_planes", "scene_mouth",
+        "scene_wall_behind", "scene_stamps", "scene_origin", "scene_constraint", "scene_reverse",
+        "scene_aside", "scene_edge", "scene_heading", "scene_worker", "scene_restart", "lidar_box",
+        "lidar_covered", "lidar_sun", "lidar_frozen", "lidar_unplugged", "lidar_ramp",
+        "lidar_pivot", "lidar_pivot_hidden"),
     [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

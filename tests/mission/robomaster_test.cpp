@@ -122,6 +122,18 @@ TEST(RobomasterMute, CoastsToRestAndNeedsAPersonBeforeItIsStartedAgain) {
               testing::Each(testing::Field(&Sent::time, testing::Gt(log.event("event again#1")))));
 }
 
+/// The guard's zeros do not arrive, and the motors keep the current that they were told last.
+TEST(MecanumUnplugKill, IsStoppedByTheRelayThatTheGuardOpens) {
+  const Record& log = record("mecanum_unplug_kill");
+  const Time killed = log.event("signal 9 to droverd");
+  ASSERT_TRUE(moved_until(log, killed));
+  const Time end = log.truth.back().time - 10ms;
+  tell_way_to_rest(log, killed, end);
+  const Roll rolled = roll(log, killed, end);
+  EXPECT_LT(rolled.way_m, 0.8);
+  EXPECT_LT(rolled.rest - killed, 2500ms);
+}
+
 /// It is rolled by the three others, and tells that it has none.
 TEST(RobomasterMute, StopsOnItsTrackWhenAMotorGetsNoCurrent) {
   const Record& log = record("robomaster_mute");

@@ -295,6 +295,7 @@ TEST(Gateway, TellsTheGuardHowEachDriveOfABusIsStopped) {
   EXPECT_EQ(recipes[1].recipe.rounds[0].frames[0].id, 0x04DU);
   EXPECT_EQ(recipes[1].recipe.period, 10ms);
   EXPECT_FALSE(recipes[0].held_by_daemon);
+  EXPECT_FALSE(recipes[0].runs_on) << "their time-out stops them";
 }
 
 TEST(StreamOutput, TakesAPacketWholeOrNotAtAll) {

@@ -88,6 +88,29 @@ TEST_F(GuardStopSet, PlaysRoundsInTurnEachInItsPeriod) {
   EXPECT_EQ(heard(), "abcab");
 }
 
+/// Its line takes nothing: only its supply stops what goes on by its last message.
+TEST_F(GuardStopSet, TellsOfADriveThatRunsOnWhileNothingReachesIt) {
+  for (const bool runs_on : {true, false}) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends.data()), 0);
+    StopSet set;
+    ASSERT_TRUE(set.add_link(named(GuardVerb::link, 0, "can0"), ends[1]));
+    auto wheel = axis(0, "can0 200");
+    wheel.runs_on = runs_on ? 1 : 0;
+    ASSERT_TRUE(set.add_axis(wheel) && set.add_message(stop(0, 0, 'w')));
+    set.begin_hold();
+    play(set, kStart, 50);  // nobody reads, and there is room
+    EXPECT_FALSE(set.runs_on(kStart + 490ms));
+    ::close(ends[0]);
+    play(set, kStart + 500ms, 10);
+    EXPECT_FALSE(set.runs_on(kStart + 590ms)) << "it may be a moment";
+    play(set, kStart + 600ms, 10);
+    EXPECT_EQ(set.runs_on(kStart + 690ms), runs_on);
+    set.begin_hold();
+    EXPECT_FALSE(set.runs_on(kStart + 690ms));
+  }
+}
+
 TEST_F(GuardStopSet, EachAxisHasItsOwnPeriod) {
   StopSet set;
   add_link(set);
