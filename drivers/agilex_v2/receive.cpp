@@ -190,6 +190,8 @@ SourceHealth AgilexV2Driver::health(Time now) const {
     health.reason = silent_text(missing(now), last_state_, now);
   } else {
     health.reason = error_text(state_.error, model());
+    if (health.reason.empty() && state_.error != 0)
+      health.reason.format("its error word is %04X", state_.error);
   }
   if (ever_heard()) health.state = talks(now) ? SourceState::fresh : SourceState::stale;
   return health;

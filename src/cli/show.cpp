@@ -204,7 +204,8 @@ void show_base(std::string& out, const Node& status) {
     value = padded(text(at(base, "state")), 9) + quantity(at(base, "vx_mps"), "%6.2f m/s") + "  " +
             quantity(at(base, "wz_radps"), "%6.2f rad/s") + "  " +
             quantity(at(base, "bus_V"), "%.1f V") + "  " + text(at(base, "health"));
-    if (!text(at(base, "fault")).empty()) value += "  " + text(at(base, "fault"));
+    for (const auto* key : {"fault", "reason"})
+      if (!text(at(base, key)).empty()) value += "  " + text(at(base, key));
   }
   line(out, "base", value);
 }

@@ -263,6 +263,18 @@ TEST(AgilexV2, TellsALowBatteryAndGoesOn) {
   EXPECT_EQ(bench.driver.health(bench.now).reason, "battery voltage low");
 }
 
+/// It drives on, and whoever looks is told the word that its chassis tells.
+TEST(AgilexV2, TellsAnErrorOfWhichNoBitIsKnown) {
+  Bench bench;
+  bench.drive();
+  DriverOut out;
+  SystemState state{.vehicle = Vehicle::well, .mode = Mode::can, .battery_V = 26};
+  state.error = 0x0080;
+  bench.driver.on_frame(system_state_frame(state, 0), bench.now, out);
+  EXPECT_EQ(bench.driver.health(bench.now).reason, "its error word is 0080");
+  EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::fresh);
+}
+
 TEST(AgilexV2, NamesAChassisOfTheWrongProtocol) {
   Bench bench;
   DriverOut out;
