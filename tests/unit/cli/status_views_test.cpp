@@ -228,6 +228,17 @@ TEST(StatusInShort, TellsAWayToTheSide) {
   EXPECT_NE(text.find("rad/s  aside -0.30 m/s\n"), std::string::npos) << text;
 }
 
+TEST(StatusInShort, TellsWhatIsOddWithABaseThatIsHeard) {
+  Snapshot s;
+  s.time = kNow;
+  s.base.configured = true;
+  s.base.health = SourceState::fresh;
+  s.base.last_motion = kNow - 10ms;
+  s.base.source.reason = "its error word is 0080";
+  const auto text = show_status(json::parse(publish::status_json(s, {}))->root);
+  EXPECT_NE(text.find("fresh  its error word is 0080\n"), std::string::npos) << text;
+}
+
 TEST(StatusInShort, SaysNothingOfTheSilenceOfATask) {
   Snapshot s;
   s.nav.owner = Owner::task;
