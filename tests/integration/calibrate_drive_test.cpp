@@ -211,7 +211,7 @@ class CalibrationDriveProcess : public RobotRig {
 };
 
 TEST_F(CalibrationDriveProcess, OnlyAKeyThatIsHeldMovesIt) {
-  start_all();
+  start_new();
   const auto person = at_terminal();
   ASSERT_TRUE(
       wait_until([&] { return person->shown().find("hold the space key") != std::string::npos; }));
@@ -247,14 +247,14 @@ TEST_F(CalibrationDriveProcess, OnlyAKeyThatIsHeldMovesIt) {
   person->signal(SIGKILL);
   ASSERT_TRUE(wait_until([&] { return at_rest(); }));
 }
-/// The whole drive, in real time: three minutes.
+/// The whole drive: three minutes, in the lab where there is one.
 TEST_F(CalibrationDriveProcess, FindsWhatIsConfiguredWrong) {
   // Without gears its motors are too hot for circles.
   for (const char* file : {"sim.json", "drover.json"})
     configure(file, R"("options": {"node":)", R"("options": {"gear_ratio": 10, "node":)");
   configure("drover.json", R"("wheel_radius_m": 0.165)", R"("wheel_radius_m": 0.160)");
   configure("drover.json", R"("antenna_x_m": 0.1)", R"("antenna_x_m": 0.0)");
-  start_all();
+  start_new();
   const auto out = folder() / "calibration.txt";
   const auto at_it = at_terminal({"--out", out.string()});
   KeyHolder& person = *at_it;
@@ -307,7 +307,7 @@ TEST_F(CalibrationDriveProcess, IsRefusedWhereAnotherProgramAnswersForTheTermina
   })) << person.shown();
 }
 TEST_F(CalibrationDriveProcess, KeysThatComeLateCountForNothing) {
-  start_all();
+  start_new();
   const auto person = at_terminal();
   hold_until_it_moves(*person);
   person->answer_after_ms(600);
@@ -318,7 +318,7 @@ TEST_F(CalibrationDriveProcess, KeysThatComeLateCountForNothing) {
   ASSERT_TRUE(wait_until([&] { return moves(); })) << person->shown();
 }
 TEST_F(CalibrationDriveProcess, ATerminalThatNeverAnswersDrivesNothing) {
-  start_all();
+  start_new();
   const auto person = at_terminal();
   person->answer_after_ms(-1);
   person->hold();
@@ -328,7 +328,7 @@ TEST_F(CalibrationDriveProcess, ATerminalThatNeverAnswersDrivesNothing) {
   expect_rest_for(2s, "nobody knows how late its keys come");
 }
 TEST_F(CalibrationDriveProcess, WhoEndsItGetsHisTerminalBack) {
-  start_all();
+  start_new();
   for (const int number : {SIGTERM, SIGHUP, SIGINT}) {
     SCOPED_TRACE(number);
     const auto person = at_terminal();
@@ -348,7 +348,7 @@ TEST_F(CalibrationDriveProcess, WhoEndsItGetsHisTerminalBack) {
   }
 }
 TEST_F(CalibrationDriveProcess, WhatWasMeasuredIsJudgedWhenDroverdAnswersNoMore) {
-  start_all();
+  start_new();
   const auto person = at_terminal();
   hold_until_it_moves(*person);
   stop_daemon();
@@ -360,7 +360,7 @@ TEST_F(CalibrationDriveProcess, WhatWasMeasuredIsJudgedWhenDroverdAnswersNoMore)
   EXPECT_THAT(person->shown(), HasSubstr("the drive ends here"));
 }
 TEST_F(CalibrationDriveProcess, EndsWithAKeyAndSaysWhatIsMissing) {
-  start_all();
+  start_new();
   const auto person = at_terminal();
   hold_until_it_moves(*person);
   const auto second = at_terminal();

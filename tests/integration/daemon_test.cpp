@@ -110,7 +110,7 @@ TEST_F(Daemon, FindsReceiverAndInertialSensorAgainAfterTheirCablesWerePulled) {
 }
 
 TEST_F(Daemon, DrivesASavedTrackToItsEnd) {
-  ASSERT_NO_FATAL_FAILURE(start_all());
+  ASSERT_NO_FATAL_FAILURE(start_new());
   wait_until_believed();
   ASSERT_NO_FATAL_FAILURE(drive(3));
   ASSERT_TRUE(wait_for_status("NAV_SUCCESS"));

@@ -271,6 +271,15 @@ guards_real_can_interfaces() {
     --gtest_filter='GuardInTheLab.*' --gtest_brief=1
 }
 
+# A robot, and a person at its terminal, for three minutes.
+drives_a_whole_calibration() {
+  "$lab" --timeout 900 -- "$build/tests/integration/integration_daemon" \
+    --gtest_filter=CalibrationDriveProcess.FindsWhatIsConfiguredWrong > "$work/drive.out" 2>&1 &&
+    grep -q '^\[  PASSED  \] 1 test' "$work/drive.out" && return
+  cat "$work/drive.out"
+  return 1
+}
+
 status=$(status_of "$lab" --build)
 if [[ $status == 3 ]]; then
   cat "$work/stderr"
@@ -304,6 +313,7 @@ check "gives the guard CAN sockets that hear nothing, and a way to what was down
   guards_real_can_interfaces
 check "loses no frame of a bus at saturation, on the way to the engine neither" \
   "$root/tests/bench/bus" --check --build "$build"
+check "drives a whole calibration at a terminal" drives_a_whole_calibration
 check "reaches a broker inside from the host" reaches_a_broker_inside
 check "lets a visitor in" lets_a_visitor_in
 check "lets several visitors in" lets_several_visitors_in

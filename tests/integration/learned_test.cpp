@@ -29,7 +29,7 @@ class Learned : public RobotRig {
 };
 
 TEST_F(Learned, OutlivesTheGatewayUntilAPersonHasItForgotten) {
-  start_all();
+  start_new();
   EXPECT_THAT(show(), HasSubstr(R"("values":[])"));
   // Stops and starts tell how late positions are.
   for (int drive = 0; drive < 3 && fits(show(), "positions late").empty(); ++drive) {

@@ -11,6 +11,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "runtime/robot_memory.h"
+
 namespace drover::test {
 
 int deadline_factor() {
@@ -253,11 +255,27 @@ void RobotRig::add_section(const std::string& section) {
 }
 
 void RobotRig::start_all() {
+  ASSERT_NO_FATAL_FAILURE(remember_its_first_way());
+  ASSERT_NO_FATAL_FAILURE(start_new());
+}
+
+void RobotRig::start_new() {
   ASSERT_NO_FATAL_FAILURE(start_broker());
   ASSERT_NO_FATAL_FAILURE(start_sim());
   ASSERT_NO_FATAL_FAILURE(start_guard());
   start_daemon();
   ASSERT_TRUE(wait_for_locate());
+}
+
+void RobotRig::remember_its_first_way() {
+  std::ifstream file(folder_ / "drover.json");
+  const std::string configuration((std::istreambuf_iterator<char>(file)), {});
+  std::vector<std::string> report;
+  runtime::RobotMemory memory(log("run"), runtime::boot_id(), configuration, report);
+  Remembered before;
+  before.mechanics_proved = true;
+  ASSERT_TRUE(memory.keep(before));
+  ASSERT_TRUE(report.empty()) << report.front();
 }
 
 void RobotRig::stop_daemon() {
