@@ -123,7 +123,7 @@ TEST_F(BesideRos2, DrivesAsWithoutItWhateverItsUsersDo) {
   Process reader({DROVER_ROS2_READER, std::to_string(domain_)}, (folder() / "reader.log").string());
   ASSERT_TRUE(wait_until([&] { return reader.output().find("it reads") != std::string::npos; }))
       << program_.output();
-  ASSERT_NO_FATAL_FAILURE(drive(12));
+  ASSERT_NO_FATAL_FAILURE(drive(15));
 
   ASSERT_NO_FATAL_FAILURE(play("a reader", [] {}));
   reader.signal(SIGSTOP);
