@@ -4,6 +4,7 @@
 namespace drover::cubemars_mit {
 namespace {
 
+using mit::is_due;
 using std::chrono::milliseconds;
 constexpr Duration kAttemptEach = milliseconds(20);
 constexpr Duration kPoll = milliseconds(10);
@@ -21,7 +22,8 @@ CubemarsDriver::CubemarsDriver(const Settings& settings, AxisId axis)
       axis_(axis),
       packer_(settings.joint),
       recipe_(settings.joint.stop_recipe()),
-      damp_(settings.joint.damp_frame()) {
+      damp_(settings.joint.damp_frame()),
+      talk_(settings.setpoint_period) {
   const std::uint32_t id = settings.joint.id;
   static_cast<void>(hears_.push_back(FrameFilter{id}));
   if (!settings.answers_under_its_own())
@@ -67,27 +69,20 @@ void CubemarsDriver::start_arming(Time now) {
 }
 
 void CubemarsDriver::send_command(const CanFrame& frame, Time now, DriverOut& out) {
-  const bool stops = mit::effect(frame, settings_.joint.id) == FrameEffect::stop;
-  const bool at_once = stops && moving_;
-  if (!at_once && last_sent_ != kNever && now - last_sent_ < settings_.setpoint_period) return;
-  last_sent_ = now;
-  moving_ = !stops;
-  out.send(frame);
+  talk_.command(frame, mit::effect(frame, settings_.joint.id), now, out);
 }
 
 /// From now on it is told nothing else, until it is asked to run.
 void CubemarsDriver::let_go(Time now) {
   power_ = Power::leaving;
   leaving_since_ = now;
-  last_sent_ = kNever;
+  talk_.begin();
 }
 
 void CubemarsDriver::leave(Duration period, Time now, DriverOut& out) {
-  if (last_sent_ != kNever && now - last_sent_ < period) return;
+  if (!is_due(talk_.last(), period, now)) return;
   if (leaving_since_ == kNever) leaving_since_ = now;
-  last_sent_ = now;
-  moving_ = false;
-  out.send(encode_special(settings_.joint.id, Special::disable));
+  talk_.send(encode_special(settings_.joint.id, Special::disable), now, out);
 }
 
 /// Each frame brings one answer, and none only asks. What is off is told again to let go; what may
@@ -109,12 +104,11 @@ void CubemarsDriver::keep_alive(Time now, DriverOut& out) {
 void CubemarsDriver::arm(Time now, DriverOut& out) {
   if (now - heard_since_ < settings_.settle || feedback_.failed()) return keep_alive(now, out);
   power_ = Power::unknown;
-  const bool again = last_attempt_ == kNever || now - last_attempt_ >= kAttemptEach;
+  const bool again = is_due(last_attempt_, kAttemptEach, now);
   if (attempts_ == kAttempts || !again) return send_command(damp_, now, out);
   ++attempts_;
-  last_attempt_ = last_sent_ = now;
-  moving_ = false;
-  out.send(damp_);
+  last_attempt_ = now;
+  talk_.send(damp_, now, out);
   out.send(encode_special(settings_.joint.id, Special::enable));
 }
 
@@ -123,7 +117,7 @@ void CubemarsDriver::arm(Time now, DriverOut& out) {
 void CubemarsDriver::look_at_gaps(Time now) {
   if (power_ == Power::on && silent(now)) power_ = Power::unknown;
   if (attempts_to_run() && silent(now)) lock("its answers ceased while armed");
-  if (phase_ == Phase::running && now - last_sent_ > settings_.unfed_after())
+  if (phase_ == Phase::running && now - talk_.last() > settings_.unfed_after())
     lock("nothing was sent to it for so long that it may have let go");
 }
 
@@ -181,8 +175,7 @@ void CubemarsDriver::on_link_up(Time now) {
   heard_since_ = kNever;
   listening_since_ = now;
   feedback_ = {};
-  last_sent_ = kNever;
-  moving_ = false;
+  talk_.begin();
   if (power_ == Power::on) power_ = Power::unknown;
   if (arms(request_)) lock("the link was lost while armed");
 }
@@ -204,15 +197,6 @@ Effect CubemarsDriver::effect(const Message& message, Time) const {
 
 double CubemarsDriver::setpoint_radps(const Message& message, std::size_t) const {
   return message.frame() == nullptr ? kAbsent : settings_.joint.setpoint_radps(*message.frame());
-}
-
-SilenceBehaviour CubemarsDriver::silence() const {
-  SilenceBehaviour behaviour;
-  behaviour.stops = settings_.timeout_ms > 0;
-  behaviour.after = milliseconds(settings_.timeout_ms);
-  behaviour.text = silence_text_.view();
-  behaviour.ends = StopEnds::coasts;
-  return behaviour;
 }
 
 }  // namespace drover::cubemars_mit

@@ -9,6 +9,7 @@
 
 #include "drivers/cubemars_mit/settings.h"
 #include "drivers/drives.h"
+#include "drivers/mit/talk.h"
 #include "drover/driver.h"
 #include "drover/fixed_vector.h"
 
@@ -33,7 +34,9 @@ class CubemarsDriver final : public Device, public FrameFace, public Actuator {
   double setpoint_radps(const Message& message, std::size_t channel) const override;
   ImpedanceRange impedance_range(std::size_t) const override { return settings_.joint.range(); }
   StopRecipe stop_recipe() const override { return recipe_; }
-  SilenceBehaviour silence() const override;
+  SilenceBehaviour silence() const override {
+    return mit::silence_of(settings_.timeout_ms, silence_text_);
+  }
 
  private:
   /// It is told to enable itself more than once: no answer tells whether it did.
@@ -109,9 +112,8 @@ class CubemarsDriver final : public Device, public FrameFace, public Actuator {
   Power power_ = Power::leaving;
   Time leaving_since_ = kNever;    ///< the first frame of it
   Time listening_since_ = kNever;  ///< for who else may feed it
-  Time last_sent_ = kNever;
+  mit::Talk talk_;
   mit::OthersDamping guard_;
-  bool moving_ = false;  ///< the last command was no stop
 
   ToldStatus told_;
 };

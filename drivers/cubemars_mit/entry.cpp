@@ -29,17 +29,9 @@ const OptionSpec kTwinOptions[] = {
     {.name = "short_answers",
      .default_value = false,
      .text = "it answers with six bytes, as the open firmware: no temperature, no error"},
-    {.name = "time_constant_s",
-     .default_value = 0.001,
-     .min = 0,
-     .max = 1,
-     .text = "from wanted to actual torque"},
-    {.name = "ambient_degC", .default_value = 25.0, .min = 0, .max = 100, .text = "air"},
-    {.name = "boot_s",
-     .default_value = 0.3,
-     .min = 0,
-     .max = 60,
-     .text = "silence after the supply comes back"},
+    mit::time_constant_row(),
+    mit::ambient_row(),
+    mit::boot_row(),
 };
 
 Made make(const Options& options, const MakeContext& context) {
@@ -69,9 +61,7 @@ TwinSettings read_twin_settings(const Options& options, const Settings& settings
   if (twin.timeout_ms == 0) twin.timeout_ms = settings.timeout_ms;
   twin.mute_while_off = options.flag("mute_while_off");
   twin.short_answers = options.flag("short_answers");
-  twin.time_constant_s = checked.number("time_constant_s");
-  twin.ambient_degC = checked.number("ambient_degC");
-  twin.boot_time = checked.seconds("boot_s");
+  mit::read_twin(options, kTwinOptions, twin);
   return twin;
 }
 

@@ -19,12 +19,7 @@ constexpr std::array kErrors{
 }  // namespace
 
 CubemarsTwin::CubemarsTwin(const Settings& settings, const TwinSettings& twin)
-    : settings_(settings), twin_(twin) {
-  motor_.sign = settings.joint.sign;
-  motor_.zero_rad = settings.joint.zero_rad;
-  motor_.t_max_Nm = twin.ranges.t_max_Nm;
-  motor_.time_constant_s = twin.time_constant_s;
-}
+    : settings_(settings), twin_(twin), motor_(settings.joint, twin) {}
 
 void CubemarsTwin::set_power(bool on, Time now) {
   if (on == powered_) return;

@@ -13,14 +13,10 @@
 namespace drover::cubemars_mit {
 
 /// The simulated device's own numbers.
-struct TwinSettings {
-  Ranges ranges;
+struct TwinSettings : mit::TwinSettings {
   double timeout_ms = 0;  ///< 0: none
   bool mute_while_off = false;
   bool short_answers = false;
-  double time_constant_s = 0.001;
-  double ambient_degC = 25;
-  Duration boot_time{};
 };
 
 TwinSettings read_twin_settings(const Options& options, const Settings& settings);

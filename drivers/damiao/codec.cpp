@@ -52,11 +52,7 @@ std::optional<Feedback> decode_feedback(const CanFrame& frame, std::uint8_t id,
   if (!frame.is_plain() || frame.len != 8 || (frame.data[0] & 0xFU) != id) return std::nullopt;
   Feedback feedback;
   feedback.status = frame.data[0] >> 4U;
-  const mit::Motion motion =
-      mit::decode_motion(frame.payload().subspan<1, mit::kMotionBytes>(), ranges);
-  feedback.position_rad = motion.position_rad;
-  feedback.velocity_radps = motion.velocity_radps;
-  feedback.torque_Nm = motion.torque_Nm;
+  feedback.motion = mit::decode_motion(frame.payload().subspan<1, mit::kMotionBytes>(), ranges);
   feedback.mos_degC = frame.data[6];
   feedback.rotor_degC = frame.data[7];
   return feedback;
@@ -70,7 +66,7 @@ CanFrame encode_feedback(std::uint32_t master_id, std::uint8_t id, const Feedbac
   CanFrame frame =
       make_frame(master_id, {static_cast<std::uint8_t>(feedback.status << 4U | (id & 0xFU)), 0, 0,
                              0, 0, 0, degrees(feedback.mos_degC), degrees(feedback.rotor_degC)});
-  mit::encode_motion({feedback.position_rad, feedback.velocity_radps, feedback.torque_Nm}, ranges,
+  mit::encode_motion(feedback.motion, ranges,
                      std::span(frame.data).subspan<1, mit::kMotionBytes>());
   return frame;
 }

@@ -41,9 +41,7 @@ enum class MotorStatus : std::uint8_t {
 
 struct Feedback {
   std::uint8_t status = 0;  ///< a MotorStatus, or what nobody has documented
-  double position_rad = 0;
-  double velocity_radps = 0;
-  double torque_Nm = 0;
+  mit::Motion motion;
   double mos_degC = 0;
   double rotor_degC = 0;
 

@@ -6,28 +6,26 @@
 namespace drover::damiao {
 namespace {
 
+using mit::is_due;
 using std::chrono::milliseconds;
 constexpr Duration kRetry = milliseconds(100);
 constexpr Duration kPoll = milliseconds(10);
 /// Of a motor that was never heard: perhaps nobody is on the bus, and nothing is acknowledged.
 constexpr Duration kSearch = milliseconds(100);
 
-bool is_due(Time last, Duration period, Time now) {
-  return last == kNever || now - last >= period;
-}
-
 }  // namespace
 
 DamiaoDriver::DamiaoDriver(const Settings& settings, AxisId axis)
     : settings_(settings),
-      joint_(settings.joint()),
-      packer_(joint_),
+      packer_(settings.joint),
       axis_(axis),
-      hears_{FrameFilter{settings.master_id}, FrameFilter{settings.id}, FrameFilter{kRequestId}},
+      hears_{FrameFilter{settings.master_id}, FrameFilter{settings.joint.id},
+             FrameFilter{kRequestId}},
       rules_(rules_of(settings)),
-      recipe_(joint_.stop_recipe()),
-      damp_(joint_.damp_frame()),
-      setup_(settings) {
+      recipe_(settings.joint.stop_recipe()),
+      damp_(settings.joint.damp_frame()),
+      setup_(settings),
+      talk_(settings.setpoint_period) {
   if (settings.timeout_ms > 0) {
     silence_text_.format("goes limp after %.3f s (its TIMEOUT, set and read back at each arming)",
                          static_cast<double>(settings.timeout_ms) / 1000);
@@ -68,12 +66,7 @@ void DamiaoDriver::start_arming(Time now, DriverOut& out) {
 }
 
 void DamiaoDriver::send_command(const CanFrame& frame, Time now, DriverOut& out) {
-  const bool stops = damiao::effect(frame, settings_) == FrameEffect::stop;
-  const bool at_once = stops && moving_;
-  if (!at_once && last_sent_ != kNever && now - last_sent_ < settings_.setpoint_period) return;
-  last_sent_ = now;
-  moving_ = !stops;
-  out.send(frame);
+  talk_.command(frame, damiao::effect(frame, settings_), now, out);
 }
 
 /// Each frame brings one feedback. What is surely off is asked; what is not is made to damp, though
@@ -82,10 +75,7 @@ void DamiaoDriver::send_command(const CanFrame& frame, Time now, DriverOut& out)
 void DamiaoDriver::keep_alive(Time now, DriverOut& out) {
   if (heard_.last_alive == kNever) return look_for_it(now, out);
   if (silent(now) || !feedback_.off()) return send_command(damp_, now, out);
-  if (!is_due(last_sent_, kPoll, now)) return;
-  last_sent_ = now;
-  moving_ = false;
-  out.send(encode_request(settings_.id));
+  if (is_due(talk_.last(), kPoll, now)) talk_.send(encode_request(settings_.joint.id), now, out);
 }
 
 /// It may have held a weight before this program began, or before the link was lost, and obey
@@ -93,35 +83,29 @@ void DamiaoDriver::keep_alive(Time now, DriverOut& out) {
 /// Damping enables nothing, and its zeros are zeros in every range. Who wants it let go gets that.
 void DamiaoDriver::look_for_it(Time now, DriverOut& out) {
   const bool damps = phase_ != Phase::idling && !guard_.goes_on(now);
-  if (damps && is_due(last_sent_, kPoll, now)) {
-    last_sent_ = now;
-    out.send(damp_);
-  }
-  moving_ = false;
+  if (damps && is_due(talk_.last(), kPoll, now)) talk_.send(damp_, now, out);
   // One that is in another mode answers to nothing else.
   if (!is_due(last_sought_, kSearch, now)) return;
   last_sought_ = now;
-  out.send(encode_request(settings_.id));
+  out.send(encode_request(settings_.joint.id));
 }
 
 /// The first thing that it follows is damping: what it was told before it was off may still stand
 /// in it.
 void DamiaoDriver::arm(Time now, DriverOut& out) {
   if (!setup_.done() || now - heard_since_ < settings_.settle) return keep_alive(now, out);
-  const bool again = last_attempt_ == kNever || now - last_attempt_ >= kRetry;
   if (first_attempt_ == kNever) first_attempt_ = now;
   if (feedback_.failed()) {
     // Once for each request: an error that comes back is for a person to look at.
     if (cleared_at_ == kNever) {
       cleared_at_ = now;
-      out.send(encode_special(settings_.id, Special::clear_error));
+      out.send(encode_special(settings_.joint.id, Special::clear_error));
       return;
     }
-  } else if (!feedback_.enabled() && again) {
+  } else if (!feedback_.enabled() && is_due(last_attempt_, kRetry, now)) {
     last_attempt_ = now;
-    last_sent_ = now;
-    out.send(damp_);
-    out.send(encode_special(settings_.id, Special::enable));
+    talk_.send(damp_, now, out);
+    out.send(encode_special(settings_.joint.id, Special::enable));
     return;
   }
   keep_alive(now, out);
@@ -141,11 +125,11 @@ void DamiaoDriver::control(const Setpoint& command, Time now, DriverOut& out) {
     case Phase::running: send_command(packer_.frame_of(command), now, out); return;
     case Phase::arming: arm(now, out); break;
     case Phase::idling: {
-      const bool again = last_attempt_ == kNever || now - last_attempt_ >= kRetry;
-      const bool due = letting_go_.is_due(feedback_.velocity_radps, now);
+      const bool again = is_due(last_attempt_, kRetry, now);
+      const bool due = letting_go_.is_due(feedback_.motion.velocity_radps, now);
       if (!silent(now) && feedback_.enabled() && again && due) {
-        last_attempt_ = last_sent_ = now;
-        out.send(encode_special(settings_.id, Special::disable));
+        last_attempt_ = now;
+        talk_.send(encode_special(settings_.joint.id, Special::disable), now, out);
         break;
       }
       keep_alive(now, out);
@@ -197,8 +181,8 @@ void DamiaoDriver::on_link_up(Time) {
   heard_.last_alive = kNever;
   heard_since_ = kNever;
   feedback_ = {};
-  last_sent_ = last_sought_ = kNever;
-  moving_ = false;
+  talk_.begin();
+  last_sought_ = kNever;
   setup_.forget();
   if (arms(request_)) lock("the link was lost while armed");
 }
@@ -211,17 +195,7 @@ Effect DamiaoDriver::effect(const Message& message, Time) const {
 }
 
 double DamiaoDriver::setpoint_radps(const Message& message, std::size_t) const {
-  if (message.frame() == nullptr) return kAbsent;
-  return joint_.setpoint_radps(*message.frame());
-}
-
-SilenceBehaviour DamiaoDriver::silence() const {
-  SilenceBehaviour behaviour;
-  behaviour.stops = settings_.timeout_ms > 0;
-  behaviour.after = milliseconds(settings_.timeout_ms);
-  behaviour.text = silence_text_.view();
-  behaviour.ends = StopEnds::coasts;
-  return behaviour;
+  return message.frame() == nullptr ? kAbsent : settings_.joint.setpoint_radps(*message.frame());
 }
 
 }  // namespace drover::damiao

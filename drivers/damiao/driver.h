@@ -12,6 +12,7 @@
 #include "drivers/damiao/settings.h"
 #include "drivers/damiao/setup.h"
 #include "drivers/drives.h"
+#include "drivers/mit/talk.h"
 #include "drover/driver.h"
 
 namespace drover::damiao {
@@ -34,9 +35,11 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   Effect effect(const Message& message, Time now) const override;
   /// Of what has neither stiffness nor effort; all else does not ask for a velocity alone.
   double setpoint_radps(const Message& message, std::size_t channel) const override;
-  ImpedanceRange impedance_range(std::size_t) const override { return joint_.range(); }
+  ImpedanceRange impedance_range(std::size_t) const override { return settings_.joint.range(); }
   StopRecipe stop_recipe() const override { return recipe_; }
-  SilenceBehaviour silence() const override;
+  SilenceBehaviour silence() const override {
+    return mit::silence_of(settings_.timeout_ms, silence_text_);
+  }
 
   /// Set points that were not numbers (sent as damping) or beyond a range (clamped).
   std::uint64_t bad_setpoints() const { return packer_.bad(); }
@@ -75,7 +78,6 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   void send_command(const CanFrame& frame, Time now, DriverOut& out);
 
   Settings settings_;
-  mit::Joint joint_;
   mit::SetpointPacker packer_;
   AxisId axis_;
   std::array<FrameFilter, 3> hears_;
@@ -105,10 +107,9 @@ class DamiaoDriver final : public Device, public FrameFace, public Actuator {
   Time cleared_at_ = kNever;  ///< errors, for this request
   bool fault_ = false;        ///< `lock_reason_` says which
   Reason lock_reason_;
-  Time last_sent_ = kNever;
+  mit::Talk talk_;
   Time last_sought_ = kNever;  ///< by a question, since the link came up
   mit::OthersDamping guard_;
-  bool moving_ = false;  ///< the last command was no stop
 
   ToldStatus told_;
 };

@@ -38,17 +38,9 @@ const OptionSpec kTwinOptions[] = {
      .max = 10000,
      .integer = true,
      .text = "time-out in its flash; 0: none"},
-    {.name = "time_constant_s",
-     .default_value = 0.001,
-     .min = 0,
-     .max = 1,
-     .text = "from wanted to actual torque"},
-    {.name = "ambient_degC", .default_value = 25.0, .min = 0, .max = 100, .text = "air"},
-    {.name = "boot_s",
-     .default_value = 0.3,
-     .min = 0,
-     .max = 60,
-     .text = "silence after the supply comes back"},
+    mit::time_constant_row(),
+    mit::ambient_row(),
+    mit::boot_row(),
 };
 
 Made make(const Options& options, const MakeContext& context) {
@@ -76,14 +68,12 @@ TwinSettings read_twin_settings(const Options& options, const Settings& settings
     const double value = checked.number(name);
     return value > 0 ? value : stated;
   };
-  twin.ranges = {saved("saved_p_max_rad", settings.ranges.p_max_rad),
-                 saved("saved_v_max_radps", settings.ranges.v_max_radps),
-                 saved("saved_t_max_Nm", settings.ranges.t_max_Nm)};
+  twin.ranges = {saved("saved_p_max_rad", settings.joint.ranges.p_max_rad),
+                 saved("saved_v_max_radps", settings.joint.ranges.v_max_radps),
+                 saved("saved_t_max_Nm", settings.joint.ranges.t_max_Nm)};
   twin.saved_mode = static_cast<std::uint32_t>(checked.number("saved_mode"));
   twin.saved_timeout_ms = static_cast<std::uint32_t>(checked.number("saved_timeout_ms"));
-  twin.time_constant_s = checked.number("time_constant_s");
-  twin.ambient_degC = checked.number("ambient_degC");
-  twin.boot_time = checked.seconds("boot_s");
+  mit::read_twin(options, kTwinOptions, twin);
   return twin;
 }
 

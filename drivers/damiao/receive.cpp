@@ -29,7 +29,7 @@ std::string_view error_text(std::uint8_t status) {
 void DamiaoDriver::on_frame(const CanFrame& frame, Time received, DriverOut& out) {
   if (!frame.is_plain()) return;
   if (frame.id == settings_.master_id) return on_answer(frame, received, out);
-  if (frame.id == settings_.id) return on_command(frame, received);
+  if (frame.id == settings_.joint.id) return on_command(frame, received);
   if (frame.id == kRequestId) on_request(frame, received);
 }
 
@@ -42,7 +42,7 @@ void DamiaoDriver::on_command(const CanFrame& frame, Time received) {
 
 /// Who only reads is welcome; who writes may have changed what was found right.
 void DamiaoDriver::on_request(const CanFrame& frame, Time received) {
-  if (frame.len < 3 || frame.data[0] != settings_.id || frame.data[1] != 0) return;
+  if (frame.len < 3 || frame.data[0] != settings_.joint.id || frame.data[1] != 0) return;
   const auto verb = static_cast<Verb>(frame.data[2]);
   if (verb == Verb::read || verb == Verb::feedback) return;
   setup_.forget();
@@ -53,9 +53,10 @@ void DamiaoDriver::on_request(const CanFrame& frame, Time received) {
 /// What looks like a register is never taken for a feedback, asked for or late: it would tell a
 /// position that is not so. One that was a feedback, and only looks so, is lost; the next differs.
 void DamiaoDriver::on_answer(const CanFrame& frame, Time received, DriverOut& out) {
-  if (const auto reply = decode_reply(frame, settings_.id)) {
+  if (const auto reply = decode_reply(frame, settings_.joint.id)) {
     setup_.on_reply(*reply);
-  } else if (const auto feedback = decode_feedback(frame, settings_.id, settings_.ranges)) {
+  } else if (const auto feedback =
+                 decode_feedback(frame, settings_.joint.id, settings_.joint.ranges)) {
     on_feedback(*feedback, received, out);
   } else {
     // Motors that share a master id tell by their own which of them speaks.
@@ -76,8 +77,7 @@ void DamiaoDriver::on_feedback(const Feedback& feedback, Time received, DriverOu
   feedback_ = feedback;
   follow_feedback(received);
   report_status(received, false, out);
-  const mit::Motion shaft{feedback.position_rad, feedback.velocity_radps, feedback.torque_Nm};
-  report_heard(joint_.motion_of(shaft, axis_), received, out);
+  report_heard(settings_.joint.motion_of(feedback.motion, axis_), received, out);
   report_temperature(received, out);
 }
 
@@ -162,7 +162,7 @@ SourceHealth DamiaoDriver::health(Time now) const {
   SourceHealth health = heard_.health(now, {}, "no answer", settings_.stale_after);
   if (health.state == SourceState::never_heard)
     health.reason.format("motor %u was never heard: its answers are expected under 0x%03X",
-                         static_cast<unsigned>(settings_.id),
+                         static_cast<unsigned>(settings_.joint.id),
                          static_cast<unsigned>(settings_.master_id));
   health.bad += bad_setpoints();
   if (health.state == SourceState::fresh && foreign_.is_shown(now)) health.reason = foreign_.text();

@@ -11,10 +11,11 @@ constexpr std::uint8_t kRead[] = {reg::kPMax, reg::kVMax, reg::kTMax, reg::kMode
 /// motor is.
 FrameEffect effect_of_request(const CanFrame& frame, const Settings& settings) {
   const bool reads = std::any_of(std::begin(kRead), std::end(kRead), [&](std::uint8_t rid) {
-    return frame == encode_read(settings.id, rid);
+    return frame == encode_read(settings.joint.id, rid);
   });
-  const bool known = reads || frame == encode_request(settings.id) ||
-                     frame == encode_write(settings.id, reg::kTimeout, settings.timeout_raw());
+  const bool known =
+      reads || frame == encode_request(settings.joint.id) ||
+      frame == encode_write(settings.joint.id, reg::kTimeout, settings.timeout_raw());
   return known ? FrameEffect::harmless : FrameEffect::forbidden;
 }
 
@@ -25,13 +26,13 @@ std::span<const std::uint8_t> read_registers() {
 }
 
 std::array<FrameRule, 2> rules_of(const Settings& settings) {
-  return {FrameRule{.id = settings.id, .min_len = 8, .max_len = 8},
+  return {FrameRule{.id = settings.joint.id, .min_len = 8, .max_len = 8},
           FrameRule{.id = kRequestId, .min_len = 8, .max_len = 8, .shared = true}};
 }
 
 FrameEffect effect(const CanFrame& frame, const Settings& settings) {
   if (frame.is_plain() && frame.id == kRequestId) return effect_of_request(frame, settings);
-  return mit::effect(frame, settings.id);
+  return mit::effect(frame, settings.joint.id);
 }
 
 }  // namespace drover::damiao

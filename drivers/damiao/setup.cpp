@@ -51,8 +51,8 @@ void Setup::ask(Time now, DriverOut& out) {
   ++attempts_;
   asked_ = true;
   asked_at_ = now;
-  out.send(writes_ ? encode_write(settings_.id, reg::kTimeout, settings_.timeout_raw())
-                   : encode_read(settings_.id, read_registers()[at_]));
+  out.send(writes_ ? encode_write(settings_.joint.id, reg::kTimeout, settings_.timeout_raw())
+                   : encode_read(settings_.joint.id, read_registers()[at_]));
 }
 
 void Setup::on_reply(const RegisterReply& reply) {
@@ -85,7 +85,7 @@ bool Setup::judge(const RegisterReply& reply) {
     reason_.format("it is in control mode %u, not in %u (MIT): set register 10",
                    static_cast<unsigned>(reply.raw), static_cast<unsigned>(kMitMode));
   } else {
-    const Named range = range_of(reply.rid, settings_.ranges);
+    const Named range = range_of(reply.rid, settings_.joint.ranges);
     const double is = static_cast<double>(reply.as_float());
     // The configured one goes through a float in the motor.
     if (std::abs(is - range.value) <= 1e-4 * range.value) return true;

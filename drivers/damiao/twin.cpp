@@ -21,12 +21,7 @@ constexpr std::array kOnce{
 }  // namespace
 
 DamiaoTwin::DamiaoTwin(const Settings& settings, const TwinSettings& twin)
-    : settings_(settings), twin_(twin) {
-  motor_.sign = settings.sign;
-  motor_.zero_rad = settings.zero_rad;
-  motor_.t_max_Nm = twin.ranges.t_max_Nm;
-  motor_.time_constant_s = twin.time_constant_s;
-}
+    : settings_(settings), twin_(twin), motor_(settings.joint, twin) {}
 
 void DamiaoTwin::boot(Time now) {
   booted_ = true;
@@ -78,20 +73,18 @@ void DamiaoTwin::send(const CanFrame& frame, TwinFrames& out) const {
 void DamiaoTwin::send_feedback(TwinFrames& out) const {
   Feedback feedback;
   feedback.status = static_cast<std::uint8_t>(status_);
-  feedback.position_rad = motor_.told.position_rad;
-  feedback.velocity_radps = motor_.told.velocity_radps;
-  feedback.torque_Nm = motor_.told.torque_Nm;
+  feedback.motion = motor_.told;
   feedback.mos_degC = twin_.ambient_degC + 5;
   feedback.rotor_degC = hot_ ? 125 : twin_.ambient_degC + 3;
-  send(encode_feedback(settings_.master_id, settings_.id, feedback, twin_.ranges), out);
+  send(encode_feedback(settings_.master_id, settings_.joint.id, feedback, twin_.ranges), out);
 }
 
 void DamiaoTwin::on_frame(const CanFrame& frame, Time now, TwinFrames& out) {
   if (!booted_ || !frame.is_plain()) return;
   if (frame.id == kRequestId) return on_request(frame, out);
-  if (const auto special = decode_special(frame, settings_.id)) {
+  if (const auto special = decode_special(frame, settings_.joint.id)) {
     on_special(*special, now);
-  } else if (const auto raw = decode_mit_raw(frame, settings_.id)) {
+  } else if (const auto raw = decode_mit_raw(frame, settings_.joint.id)) {
     last_fed_ = now;
     if (mode_ == kMitMode) command_ = scale(*raw, twin_.ranges);
   } else {
@@ -119,20 +112,20 @@ void DamiaoTwin::on_special(Special special, Time now) {
 }
 
 void DamiaoTwin::on_request(const CanFrame& frame, TwinFrames& out) {
-  if (frame.len != 8 || frame.data[0] != settings_.id || frame.data[1] != 0) return;
+  if (frame.len != 8 || frame.data[0] != settings_.joint.id || frame.data[1] != 0) return;
   // That this feeds its time-out is nowhere said.
   if (frame.data[2] == static_cast<std::uint8_t>(Verb::feedback)) return send_feedback(out);
   on_register(frame, out);
 }
 
 void DamiaoTwin::on_register(const CanFrame& frame, TwinFrames& out) {
-  const auto request = decode_reply(frame, settings_.id);
+  const auto request = decode_reply(frame, settings_.joint.id);
   if (!request || request->verb == Verb::store) return;
   if (request->verb == Verb::write && request->rid == reg::kTimeout) timeout_raw_ = request->raw;
   if (request->verb == Verb::write && request->rid == reg::kMode) mode_ = request->raw;
   RegisterReply reply = *request;
   reply.raw = read(request->rid);
-  send(encode_reply(settings_.master_id, settings_.id, reply), out);
+  send(encode_reply(settings_.master_id, settings_.joint.id, reply), out);
 }
 
 std::uint32_t DamiaoTwin::read(std::uint8_t rid) const {

@@ -12,13 +12,9 @@
 namespace drover::damiao {
 
 /// The simulated device's own numbers.
-struct TwinSettings {
-  Ranges ranges;  ///< in its registers
+struct TwinSettings : mit::TwinSettings {
   std::uint32_t saved_mode = kMitMode;
   std::uint32_t saved_timeout_ms = 0;
-  double time_constant_s = 0.001;
-  double ambient_degC = 25;
-  Duration boot_time{};
 };
 
 TwinSettings read_twin_settings(const Options& options, const Settings& settings);

@@ -56,6 +56,15 @@ AxisMotion Joint::motion_of(const Motion& motion, AxisId axis) const {
   return joint;
 }
 
+SilenceBehaviour silence_of(std::uint32_t timeout_ms, const Reason& text) {
+  SilenceBehaviour behaviour;
+  behaviour.stops = timeout_ms > 0;
+  behaviour.after = std::chrono::milliseconds(timeout_ms);
+  behaviour.text = text.view();
+  behaviour.ends = StopEnds::coasts;
+  return behaviour;
+}
+
 FrameEffect effect(const CanFrame& frame, std::uint8_t id) {
   if (const auto special = decode_special(frame, id)) {
     switch (*special) {

@@ -4,6 +4,7 @@
 
 #include "drivers/mit/frame.h"
 #include "drover/actuator.h"
+#include "drover/fixed_text.h"
 
 namespace drover::mit {
 
@@ -31,6 +32,9 @@ struct Joint {
   double setpoint_radps(const CanFrame& frame) const;
   AxisMotion motion_of(const Motion& motion, AxisId axis) const;
 };
+
+/// Of a motor with this time-out of its own, 0: none is known; `text` must outlive it.
+SilenceBehaviour silence_of(std::uint32_t timeout_ms, const Reason& text);
 
 /// What an MIT frame or a special one does; of the latter the disabling one is a stop.
 FrameEffect effect(const CanFrame& frame, std::uint8_t id);

@@ -3,7 +3,36 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/checked_options.h"
+
 namespace drover::mit {
+
+OptionSpec time_constant_row() {
+  return {.name = "time_constant_s",
+          .default_value = 0.001,
+          .min = 0,
+          .max = 1,
+          .text = "from wanted to actual torque"};
+}
+
+OptionSpec ambient_row() {
+  return {.name = "ambient_degC", .default_value = 25.0, .min = 0, .max = 100, .text = "air"};
+}
+
+OptionSpec boot_row() {
+  return {.name = "boot_s",
+          .default_value = 0.3,
+          .min = 0,
+          .max = 60,
+          .text = "silence after the supply comes back"};
+}
+
+void read_twin(const Options& options, std::span<const OptionSpec> table, TwinSettings& twin) {
+  const CheckedOptions checked(options, table);
+  twin.time_constant_s = checked.number("time_constant_s");
+  twin.ambient_degC = checked.number("ambient_degC");
+  twin.boot_time = checked.seconds("boot_s");
+}
 
 void TwinMotor::move(double dt_s, bool on, const MitCommand& command, Shaft& shaft) {
   const double turns = wrong_sign ? -sign : sign;

@@ -15,7 +15,7 @@ drivers/*        drivers/thousandths.h drivers/twin_states.h drivers/canopen/ dr
 drivers/*/*      drover/ ./ ../ drivers/checked_options.h drivers/drives.h drivers/noise.h
 drivers/*/*      drivers/thousandths.h drivers/twin_states.h drivers/canopen/ drivers/mit/
 drivers/canopen  drover/ ./
-drivers/mit      drover/ ./
+drivers/mit      drover/ ./ drivers/checked_options.h
 src/engine       drover/ engine/
 src/engine/clearance drover/ engine/config.h engine/clearance/
 src/engine/estimate  drover/ engine/config.h engine/still.h engine/base/ engine/estimate/

@@ -9,10 +9,12 @@
 #include "drivers/cubemars_mit/entry.h"
 #include "support/describe.h"
 #include "unit/drivers/conformance/harness.h"
+#include "unit/drivers/mit/unheard_motor.h"
 
 namespace drover::cubemars_mit {
 namespace {
 
+using mit::test::expect_damped;
 using std::chrono::milliseconds;
 using test::CanBench;
 
@@ -75,9 +77,7 @@ TEST(Cubemars, IsNotLetGoOfWhileSomebodyElseMakesItDamp) {
   CanBench before(subject());
   arm(before);
   CanBench bench(subject());
-  bench.twin = std::move(before.twin);
-  bench.now = before.now;
-  bench.device->on_link_up(bench.now);
+  mit::test::take_motor(bench, before);
   const StopRecipe recipe = bench.actuator->stop_recipe();
   for (int i = 0; i < 20; ++i) {
     bench.send(recipe.rounds[0].frames[0]);
@@ -101,23 +101,13 @@ TEST(Cubemars, IsNotLetGoOfWhileSomebodyElseMakesItDamp) {
 void begin_anew_beside_the_guard(CanBench& bench, AxisRequest request) {
   CanBench before(subject());
   arm(before);
-  before.twin->set_fault("silent", before.now);
-  bench.twin = std::move(before.twin);
-  bench.now = before.now;
-  bench.device->on_link_up(bench.now);
-  bench.load_Nm = 1;
+  mit::test::begin_anew(bench, before);
   const CanFrame damp = bench.actuator->stop_recipe().rounds[0].frames[0];
   for (int i = 0; i < 50; ++i) {
     bench.send(damp);
     bench.inject(damp);
     bench.run(milliseconds(10), request);
   }
-}
-
-/// With 1 Nm on a damping of 1 Nms/rad; a free fall is 20 rad/s after a second.
-void expect_damped(const CanBench& bench) {
-  EXPECT_TRUE(bench.shaft.energized);
-  EXPECT_LT(std::abs(bench.shaft.velocity_radps), 1.1);
 }
 
 /// It may obey, and only its answers be lost: to ask it would drop what it carries.

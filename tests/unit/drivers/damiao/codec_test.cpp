@@ -54,9 +54,9 @@ TEST(DamiaoCodec, ReadsAFeedback) {
       make_frame(0x11, {0x11, 0x8A, 0x3C, 0x88, 0x86, 0xCC, 0x23, 0x1E}), 1, kDm4310);
   ASSERT_TRUE(feedback);
   EXPECT_TRUE(feedback->enabled());
-  EXPECT_NEAR(feedback->position_rad, 0.99966, 1e-5);
-  EXPECT_NEAR(feedback->velocity_radps, 2.0, 1e-3);
-  EXPECT_NEAR(feedback->torque_Nm, -1.5018, 1e-4);
+  EXPECT_NEAR(feedback->motion.position_rad, 0.99966, 1e-5);
+  EXPECT_NEAR(feedback->motion.velocity_radps, 2.0, 1e-3);
+  EXPECT_NEAR(feedback->motion.torque_Nm, -1.5018, 1e-4);
   EXPECT_EQ(feedback->mos_degC, 35);
   EXPECT_EQ(feedback->rotor_degC, 30);
 }

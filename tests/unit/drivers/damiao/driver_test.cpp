@@ -9,10 +9,12 @@
 #include "drivers/damiao/entry.h"
 #include "support/describe.h"
 #include "unit/drivers/conformance/harness.h"
+#include "unit/drivers/mit/unheard_motor.h"
 
 namespace drover::damiao {
 namespace {
 
+using mit::test::expect_damped;
 using std::chrono::milliseconds;
 using test::CanBench;
 
@@ -176,17 +178,7 @@ TEST(Damiao, IsMadeToDampWhenNobodyHearsIt) {
 void begin_anew(CanBench& bench) {
   CanBench before(subject());
   arm(before);
-  before.twin->set_fault("silent", before.now);
-  bench.twin = std::move(before.twin);
-  bench.now = before.now;
-  bench.device->on_link_up(bench.now);
-  bench.load_Nm = 1;
-}
-
-/// With 1 Nm on a damping of 1 Nms/rad; a free fall is 20 rad/s after a second.
-void expect_damped(const CanBench& bench) {
-  EXPECT_TRUE(bench.shaft.energized);
-  EXPECT_LT(std::abs(bench.shaft.velocity_radps), 1.1);
+  mit::test::begin_anew(bench, before);
 }
 
 /// Its time-out would let go of what only obeys and is not heard.
