@@ -63,30 +63,31 @@ void expect_stopped(const Way& way, double most_m, double most_deg) {
   EXPECT_TRUE(way.log.changes("enable_relay", way.torn, end).empty()) << "its power was cut";
 }
 
+void expect_told_and_stopped(const Way& way, const char* wheel, double most_m, double most_deg) {
+  expect_told(way, wheel);
+  expect_stopped(way, most_m, most_deg);
+}
+
 TEST(MecanumSidewaysTorn, IsToldAndStopsTheRobotOnItsWayToTheLeft) {
-  const Way left = way("mecanum_sideways_torn", "torn_left", "2");
-  expect_told(left, "rear_left: motor 3 (203)");
-  expect_stopped(left, 0.2, 5);
+  expect_told_and_stopped(way("mecanum_sideways_torn", "torn_left", "2"),
+                          "rear_left: motor 3 (203)", 0.2, 5);
 }
 
 /// Repaired and reset, slowly.
 TEST(MecanumSidewaysTorn, IsToldAndStopsTheRobotOnItsWayToTheRight) {
-  const Way right = way("mecanum_sideways_torn", "torn_right", "4");
-  expect_told(right, "front_right: motor 2 (202)");
-  expect_stopped(right, 0.06, 5);
+  expect_told_and_stopped(way("mecanum_sideways_torn", "torn_right", "4"),
+                          "front_right: motor 2 (202)", 0.06, 5);
 }
 
 TEST(MecanumTurnsTorn, IsToldAndStopsTheRobotOnTheSpot) {
-  const Way turn = way("mecanum_turns_torn", "torn_turning", "2");
-  expect_told(turn, "rear_right: motor 4 (204)");
-  expect_stopped(turn, 0.05, 15);
+  expect_told_and_stopped(way("mecanum_turns_torn", "torn_turning", "2"),
+                          "rear_right: motor 4 (204)", 0.05, 15);
 }
 
 /// Aslant two wheels hardly turn: this is one of them.
 TEST(MecanumTurnsTorn, IsToldAndStopsTheRobotAslant) {
-  const Way aslant = way("mecanum_turns_torn", "torn_aslant", "4");
-  expect_told(aslant, "front_left: motor 1 (201)");
-  expect_stopped(aslant, 0.22, 5);
+  expect_told_and_stopped(way("mecanum_turns_torn", "torn_aslant", "4"),
+                          "front_left: motor 1 (201)", 0.22, 5);
 }
 
 /// How long a motor was asked for a current and told that it has none, at the longest.
