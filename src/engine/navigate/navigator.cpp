@@ -16,10 +16,6 @@ constexpr double kGoalNear_m = 0.5;  // the arrival time-out runs inside this
 constexpr double kAside_m = 0.10;
 constexpr double kBack_m = 0.05;
 constexpr double kBackToTrack_mps = 0.2;
-// Of two places: after a minute of a fix that was found again, and is lost now and then.
-constexpr double kDecides_s = 90;
-// However often what is waited for begins anew: so many times the time-out, and one decision.
-constexpr double kWholeWait = 5;
 constexpr Duration kShovedOfLate = std::chrono::seconds(2);
 constexpr Duration kReturnsWithin = std::chrono::seconds(20);
 constexpr double kSlowFrom = 0.5;  // share of the error budget from which on it slows
@@ -40,17 +36,8 @@ Navigator::Navigator(const EngineConfig& config, Latch& latch)
     : config_(config),
       latch_(latch),
       body_(limits(kinematics_of(config.base))),
-      tracker_(config.navigate, config.limits, body_) {}
-
-void Navigator::Wait::update(bool bad, Time now, Duration after) {
-  if (bad) {
-    if (since == kNever) since = now;
-    last_bad = now;
-    resume_after = after;
-  } else if (since != kNever && now - last_bad >= resume_after) {
-    since = kNever;
-  }
-}
+      tracker_(config.navigate, config.limits, body_),
+      waits_(config) {}
 
 void Navigator::start(const RequestId& id, const StartTask& task, Time now,
                       const Estimate& estimate, bool has_origin, const HealthReport& health,
@@ -93,7 +80,7 @@ void Navigator::start(const RequestId& id, const StartTask& task, Time now,
   goal_near_since_ = kNever;
   begun_ = stopping_at_goal_ = returns_ = false;
   drives_.begin();
-  obstacle_ = constraint_ = lost_ = unasked_ = {};
+  waits_.begin();
   latch_.reset(Act::begin);
   phase_ = Phase::starting;
   status_ = NavStatus::run;
@@ -143,8 +130,8 @@ void Navigator::end(Time now, TaskEnded::How how, const Reason& reason, EventQue
 
 Reason Navigator::waits_for(const HealthReport& health) const {
   Reason text;
-  if (phase_ == Phase::paused && !outside_.empty()) return outside_;
-  if (phase_ == Phase::paused && waits() && health.why.empty()) {
+  if (phase_ == Phase::paused && !waits_.outside().empty()) return waits_.outside();
+  if (phase_ == Phase::paused && waits_.holds() && health.why.empty()) {
     text.format("goes on when nothing has held it up for %.1f s", config_.navigate.resume_after_s);
     return text;
   }
@@ -216,16 +203,9 @@ Reason Navigator::find_position_failure(const Estimate& estimate,
     return estimate.reason.empty() ? Reason("position disagrees with odometry") : estimate.reason;
   }
   if (health.locate != LocateState::good) return {};  // a pause, not a failure
-  Reason why;
-  const double off_m = std::abs(progress_.cross_track_m);
-  const double allowed_m = progress_.joined
-                               ? config_.navigate.corridor_m
-                               : config_.navigate.start_distance_m + config_.navigate.corridor_m;
-  if (!(off_m <= allowed_m)) {
-    why.format("the robot left the corridor: %.2f m beside the track", off_m);
-  } else if (progress_.goal_passed && !progress_.arrived && !stopping_at_goal_) {
+  Reason why = left_corridor(on_track(estimate));
+  if (why.empty() && progress_.goal_passed && !progress_.arrived && !stopping_at_goal_)
     why.format("passed point %llu at %.2f m", as_counted(target_), progress_.distance_to_goal_m);
-  }
   return why;
 }
 
@@ -236,53 +216,12 @@ Reason Navigator::find_failure(const NavInput& input) {
   if (const Reason why = find_position_failure(input.estimate, input.health); !why.empty()) {
     return why;
   }
-  Reason why;
-  if (unasked_.longer_than(config_.clearance.wait_s, input.now)) {
-    why = input.unasked;
-  } else if (obstacle_.longer_than(limits.obstacle_timeout_s, input.now)) {
-    why.format("an obstacle blocked the way for %.0f s", limits.obstacle_timeout_s);
-  } else if (constraint_.longer_than(limits.obstacle_timeout_s, input.now)) {
-    const std::string_view which = input.health.text(Cause::constraint).view();
-    why.format("for %.0f s: %.*s", limits.obstacle_timeout_s, static_cast<int>(which.size()),
-               which.data());
-  } else if (lost_too_long(input)) {
-    const std::string_view cause =
-        (input.health.locate_reason.empty() ? outside_ : input.health.locate_reason).view();
-    why.format("localisation was lost for %.0f s%s%.*s", to_s(input.now - lost_.since),
-               cause.empty() ? "" : ": ", static_cast<int>(cause.size()), cause.data());
-  } else if (goal_near_since_ != kNever &&
-             input.now - goal_near_since_ > from_s(limits.arrival_timeout_s)) {
+  Reason why = waits_.too_long(input, on_track(input.estimate));
+  if (why.empty() && goal_near_since_ != kNever &&
+      input.now - goal_near_since_ > from_s(limits.arrival_timeout_s))
     why.format("did not arrive at point %llu within %.0f s", as_counted(target_),
                limits.arrival_timeout_s);
-  }
   return why;
-}
-
-/// Without a fix one is waited for; then what it is worth; and of two places, once one is believed,
-/// another fix: each has its own time, but not for ever. What is being decided is waited for, but
-/// not twice as long.
-bool Navigator::lost_too_long(const NavInput& input) const {
-  const double limit_s = config_.navigate.locate_timeout_s;
-  if (!lost_.holds()) return false;
-  const Time since = std::max({lost_.since, input.estimate.found, input.estimate.renewed});
-  const auto longer_than = [&](double s) { return input.now - since > from_s(s); };
-  const bool wholly = lost_.longer_than(kWholeWait * limit_s + kDecides_s, input.now);
-  if (!longer_than(limit_s) && !wholly) return false;
-  // It was just decided, and goes on soon.
-  if (input.health.locate == LocateState::good && may_be_outside(input.estimate).empty())
-    return false;
-  const Time decided = input.estimate.decided_at;
-  const bool soon = decided != kNever && decided - since < from_s(kDecides_s + limit_s);
-  return wholly || !soon || longer_than(kDecides_s + limit_s);
-}
-
-/// How far beside the track the place may be that was not believed.
-double Navigator::unbelieved_m(const Estimate& estimate) const {
-  if (estimate.unbelieved_error_m == 0) return 0;
-  Pose other = estimate.pose;
-  other.x_m += estimate.unbelieved_x_m;
-  other.y_m += estimate.unbelieved_y_m;
-  return tracker_.beside_m(other) + estimate.unbelieved_error_m;
 }
 
 /// Inside its tolerance of the goal it has no need to go on to where the place that was not
@@ -290,68 +229,17 @@ double Navigator::unbelieved_m(const Estimate& estimate) const {
 bool Navigator::ends_short(const Estimate& estimate, bool located) const {
   const bool near = progress_.distance_left_m < kGoalNear_m &&
                     progress_.distance_to_goal_m <= config_.navigate.goal_tolerance_m;
-  return near && located && begun_ && !constraint_.holds() &&
-         !(unbelieved_m(estimate) <= config_.navigate.corridor_m);
-}
-
-/// Of two places one is right, and nobody knows which: both have to be inside the corridor. So has
-/// the one where it is when wheels slipped before a turn, and nobody saw it.
-Reason Navigator::may_be_outside(const Estimate& estimate) const {
-  Reason why;
-  if (!progress_.joined) {
-    // There is no corridor yet.
-    if (estimate.disputed && !(estimate.predicted_error_m <= config_.estimate.bound_run_m))
-      why = estimate.reason;
-    return why;
-  }
-  const double off_m = std::abs(progress_.cross_track_m);
-  const double corridor_m = config_.navigate.corridor_m;
-  // On a straight it is behind, on its line: on the way back, in whichever gear, it would leave the
-  // track at its end.
-  const double past_m = progress_.backwards ? estimate.unseen_behind_m : estimate.unseen_ahead_m;
-  const bool slipped_past = !(past_m <= corridor_m);
-  const bool slipped_out = slipped_past || !(off_m + estimate.unseen_aside_m <= corridor_m);
-  const bool other_out = estimate.disputed && !(off_m + estimate.predicted_error_m <= corridor_m);
-  const double unbelieved_off_m = unbelieved_m(estimate);
-  const bool unbelieved_out = !(unbelieved_off_m <= corridor_m);
-  if (!slipped_out && !other_out && !unbelieved_out) return why;
-  if (estimate.disputed) return estimate.reason;
-  if (unbelieved_out) {
-    why.format(
-        "%.2f m beside the track here, had no wheel slipped while the RTK fix was lost; if the map "
-        "shows the robot where it stands: drover position accept",
-        unbelieved_off_m);
-    return why;
-  }
-  why.format("%.1f m driven without an RTK fix: %.2f m %s the track here, had the wheels slipped",
-             estimate.unseen_way_m, slipped_past ? past_m : estimate.unseen_aside_m,
-             slipped_past ? "past the end of" : "beside");
-  return why;
+  return near && located && begun_ && !waits_.for_constraint() &&
+         !(unbelieved_m(on_track(estimate)) <= config_.navigate.corridor_m);
 }
 
 void Navigator::watch_pauses(const NavInput& input, EventQueue& events) {
-  const Duration resume_after = from_s(config_.navigate.resume_after_s);
-  const bool unseen = input.health.holds(Cause::surroundings);
-  const bool broken = input.health.holds(Cause::constraint);
-  // Of what is seen ClearanceWatch says only after a while that it is away.
-  const bool zone = input.health.near_zone && !input.health.in_the_way;
-  obstacle_.update(input.health.near_zone || unseen, input.now,
-                   zone || unseen ? resume_after : Duration{});
-  constraint_.update(broken, input.now, Duration{});
-  unasked_.update(!input.unasked.empty(), input.now, Duration{});
-  outside_ = may_be_outside(input.estimate);
-  lost_.update(input.health.locate != LocateState::good || !outside_.empty(), input.now,
-               resume_after);
-  const bool wait = waits();
+  waits_.update(input, on_track(input.estimate));
+  const bool wait = waits_.holds();
   if (wait && phase_ == Phase::running) {
     phase_ = Phase::paused;
-    Reason text;
-    const Reason& what = broken                   ? input.health.text(Cause::constraint)
-                         : !outside_.empty()      ? outside_
-                         : !obstacle_.holds()     ? input.health.locate_reason
-                         : input.health.near_zone ? input.health.text(Cause::near_zone)
-                                                  : input.health.text(Cause::surroundings);
-    text.format("paused: %.*s", static_cast<int>(what.view().size()), what.view().data());
+    Reason text = "paused: ";
+    text.append(waits_.why(input.health));
     events.notice(input.now, Notice::Level::warning, text);
   } else if (!wait && phase_ == Phase::paused) {
     phase_ = Phase::running;
@@ -398,7 +286,7 @@ double Navigator::speed_cap_mps(const NavInput& input) const {
 
 /// At rest only, before what is in its way: where its track goes from here is looked at then, too.
 Twist Navigator::asked(const NavInput& input) {
-  if (lost_.holds() || stopping_at_goal_) return {};
+  if (waits_.for_place() || stopping_at_goal_) return {};
   return tracker_.follow(input.estimate.pose, progress_, speed_cap_mps(input), input.dt,
                          input.may_go_aside);
 }
@@ -414,7 +302,8 @@ NavOutput Navigator::run(const NavInput& input, EventQueue& events) {
   watch_shoves(input);
   // What holds it up at its goal holds up nothing any more.
   const bool near_enough = ends_short(input.estimate, located);
-  const bool there = near_enough || (progress_.arrived && !lost_.holds() && !constraint_.holds());
+  const bool there =
+      near_enough || (progress_.arrived && !waits_.for_place() && !waits_.for_constraint());
   if (phase_ == Phase::paused && !there) {
     if (goal_near_since_ != kNever) goal_near_since_ = input.now;  // waiting is not creeping
     return {{}, true, Stop::controlled, asked(input)};
@@ -451,7 +340,7 @@ NavSnapshot Navigator::snapshot(const HealthReport& health) const {
   NavSnapshot nav;
   nav.status = status_;
   nav.locate = health.locate;
-  nav.obstacle = health.near_zone || (phase_ == Phase::paused && obstacle_.holds());
+  nav.obstacle = health.near_zone || (phase_ == Phase::paused && waits_.for_obstacle());
   nav.paused = phase_ == Phase::paused;
   if (status_ == NavStatus::free) return nav;
   nav.track = track_;

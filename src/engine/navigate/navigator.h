@@ -2,30 +2,14 @@
 #pragma once
 
 #include "engine/event_queue.h"
-#include "engine/gate/target_gate.h"
 #include "engine/health/arm_wait.h"
-#include "engine/health/health.h"
 #include "engine/health/latch.h"
-#include "engine/health/wheels.h"
+#include "engine/navigate/corridor.h"
+#include "engine/navigate/nav_input.h"
 #include "engine/navigate/tracker.h"
+#include "engine/navigate/waits.h"
 
 namespace drover::engine {
-
-/// What the navigator needs each cycle.
-struct NavInput {
-  Time now = kNever;
-  Duration dt{};
-  const Estimate& estimate;
-  const HealthReport& health;
-  WheelFault wheels = WheelFault::none;
-  const Reason& wheel_reason;
-  bool at_rest = true;                          ///< the target gate commands nothing
-  TargetRefusal refusal = TargetRefusal::none;  ///< of the last cycle
-  double speed_cap_mps = 1e9;                   ///< of the first way after the start
-  double along_cap_mps = 1e9;                   ///< of what is free along the track
-  Reason unasked{};                             ///< as ClearanceWatch::unasked
-  bool may_go_aside = false;                    ///< one that can
-};
 
 struct NavOutput {
   Twist target;
@@ -71,18 +55,6 @@ class Navigator final {
     running,
     paused,
   };
-  /// A reason to wait, from its beginning until there was health for long enough.
-  struct Wait {
-    Time since = kNever;  ///< kNever: not waiting
-    Time last_bad = kNever;
-    Duration resume_after{};
-    /// `after`: of health before it ends, by what is bad now.
-    void update(bool bad, Time now, Duration after);
-    bool holds() const { return since != kNever; }
-    bool longer_than(double limit_s, Time now) const {
-      return holds() && now - since > from_s(limit_s);
-    }
-  };
 
   void end(Time now, TaskEnded::How how, const Reason& reason, EventQueue& events);
   void fail(Time now, const Reason& reason, EventQueue& events);
@@ -95,12 +67,10 @@ class Navigator final {
   Reason find_position_failure(const Estimate& estimate, const HealthReport& health) const;
   void watch_shoves(const NavInput& input);
   double speed_cap_mps(const NavInput& input) const;
-  bool lost_too_long(const NavInput& input) const;
-  double unbelieved_m(const Estimate& estimate) const;
   bool ends_short(const Estimate& estimate, bool located) const;
-  /// Why the robot may be outside of its corridor; empty: it may not.
-  Reason may_be_outside(const Estimate& estimate) const;
-  bool waits() const { return obstacle_.holds() || constraint_.holds() || lost_.holds(); }
+  OnTrack on_track(const Estimate& estimate) const {
+    return {estimate, progress_, tracker_, config_};
+  }
   Twist asked(const NavInput& input);
 
   EngineConfig config_;
@@ -120,11 +90,7 @@ class Navigator final {
   ArmWait drives_;
   Time accepted_ = kNever;
   Time goal_near_since_ = kNever;
-  Wait obstacle_;
-  Wait constraint_;
-  Wait lost_;
-  Reason outside_;  ///< why it may be outside of its corridor now; empty: it may not
-  Wait unasked_;
+  Waits waits_;
   TrackProgress progress_;
   Reason ended_;  ///< why the task ended in an error; outlives a reset
 };
