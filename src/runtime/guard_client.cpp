@@ -16,6 +16,7 @@
 #include "link/can_wire.h"
 #include "link/opened.h"
 #include "link/unix_address.h"
+#include "runtime/guard_watch.h"
 
 namespace drover::runtime {
 
@@ -190,14 +191,23 @@ bool GuardClient::let_go(const std::string& name) {
   return connected() && set_name(message, name) && send(message);
 }
 
-link::UniqueFd GuardClient::borrow(const std::string& name) {
-  // A busy machine holds it up for less; nothing else waits here but links that are to be opened.
+/// A busy machine holds it up for less than half a second.
+bool GuardClient::answers(const std::function<void()>& late) const {
   constexpr int kPatience_ms = 500;
+  const auto signs = std::chrono::milliseconds(limit_ms_) + GuardWatch::kCycles;
+  const int first_ms = std::min(
+      kPatience_ms, static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(signs).count()));
+  pollfd fds{socket_.get(), POLLIN, 0};
+  if (::poll(&fds, 1, first_ms) > 0) return true;
+  late();
+  return ::poll(&fds, 1, kPatience_ms - first_ms) > 0;
+}
+
+link::UniqueFd GuardClient::borrow(const std::string& name, const std::function<void()>& late) {
   GuardMessage message;
   message.verb = GuardVerb::lend;
   if (!connected() || !set_name(message, name) || !send(message)) return {};
-  pollfd fds{socket_.get(), POLLIN, 0};
-  if (::poll(&fds, 1, kPatience_ms) <= 0) {
+  if (!answers(late)) {
     disconnect();  // its answer, when it comes, would be taken for another one's
     return {};
   }

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,8 +63,9 @@ class GuardClient final {
   bool hand_over(std::span<const GuardedLink> links, std::string& problem);
   bool hand_back();
   /// A duplicate of what the guard keeps as `name`; nothing when it keeps no such thing. Waits for
-  /// the answer half a second at most.
-  link::UniqueFd borrow(const std::string& name);
+  /// the answer half a second at most; `late` is called, once, when the guard has not answered for
+  /// so long that it counts as not there.
+  link::UniqueFd borrow(const std::string& name, const std::function<void()>& late);
   /// The guard closes what it keeps as `name`.
   bool let_go(const std::string& name);
   /// The enable relay's line: it falls when the last of both programs closes it.
@@ -80,6 +82,7 @@ class GuardClient final {
  private:
   bool connect(std::string& problem);
   bool send(const GuardMessage& message, int descriptor = -1);
+  bool answers(const std::function<void()>& late) const;
   bool send_link(std::uint32_t index, const GuardedLink& link);
   bool send_axis(std::uint32_t index, std::uint32_t link, const GuardedAxis& axis);
 

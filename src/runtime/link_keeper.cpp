@@ -73,8 +73,7 @@ void LinkKeeper::run(const std::atomic<bool>& stop) {
     turns_.fetch_add(1, std::memory_order_relaxed);
     const Time now = monotonic_now();
     take_back_lost();
-    for (std::size_t i = 0; i < kLinkSlots; ++i)
-      if (slots_[i].used && !slots_[i].open && slots_[i].retry.due(now)) try_open(i, now);
+    open_missing(now);
     supply_guard(now);
     hand_on(now);  // only then: what the guard cannot stop is not to be moved
     supply_watchdog(now);
@@ -156,7 +155,7 @@ link::Opened<link::OutputLink> LinkKeeper::open_outputs() {
   const auto& outputs = config_.outputs;
   const int place = relay_place(outputs);
   link::UniqueFd kept;
-  if (place >= 0 && guard_.reach()) kept = guard_.borrow(relay_name_);
+  if (place >= 0 && guard_.reach()) kept = borrow(relay_name_);
   auto opened = link::open_outputs({outputs.chip, output_lines(outputs), place}, std::move(kept));
   relay_given_ = false;
   if (opened.link && opened.link->shared_fd() >= 0)
@@ -171,7 +170,7 @@ link::Opened<link::SerialLink> LinkKeeper::open_stream(std::size_t slot) {
   if (!is_guarded_tty(slot)) return link::open_serial(settings);
   const std::string name(wiring_.links[slot].name);
   link::Opened<link::SerialLink> opened;
-  if (auto kept = guard_.reach() ? guard_.borrow(name) : link::UniqueFd()) {
+  if (auto kept = guard_.reach() ? borrow(name) : link::UniqueFd()) {
     opened = link::adopt_serial(settings, std::move(kept));
     if (opened.link)
       log(LogLevel::info, settings.path + ": taken back from drover-guard");
@@ -181,6 +180,16 @@ link::Opened<link::SerialLink> LinkKeeper::open_stream(std::size_t slot) {
   if (!opened.link) opened = link::open_serial(settings);
   if (opened.link) slots_[slot].tty = opened.link->duplicate();
   return opened;
+}
+
+/// Buses first: who opens what the guard may have kept waits for its answer.
+void LinkKeeper::open_missing(Time now) {
+  for (const bool buses : {true, false}) {
+    for (std::size_t i = 0; i < kLinkSlots; ++i) {
+      const auto& slot = slots_[i];
+      if (is_bus(i) == buses && slot.used && !slot.open && slot.retry.due(now)) try_open(i, now);
+    }
+  }
 }
 
 void LinkKeeper::try_open(std::size_t slot, Time now) {

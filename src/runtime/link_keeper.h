@@ -100,6 +100,7 @@ class LinkKeeper final {
     return is_guarded(slot) && wiring_.links[slot].wire == Wire::bytes;
   }
   void take_back_lost();
+  void open_missing(Time now);
   void try_open(std::size_t slot, Time now);
   void hand_on(Time now);
   LinkHandover open(std::size_t slot, std::string& problem);
@@ -107,6 +108,7 @@ class LinkKeeper final {
   link::Opened<link::SerialLink> open_stream(std::size_t slot);
   GuardedLink guarded_link(std::size_t slot);
   void open_for_guard(std::size_t slot, GuardedLink& link);
+  link::UniqueFd borrow(const std::string& name);
   void ask_guard();
   /// The first of the links that the control thread has; empty: the guard lacks nothing of them.
   std::string lacking() const;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "runtime/clock.h"
 #include "runtime/link_keeper.h"
 #include "runtime/log.h"
 
@@ -64,13 +65,19 @@ std::string LinkKeeper::lacking() const {
   return {};
 }
 
+/// A guard that hangs keeps no drive waiting: what obeys and is not heard is to be damped, or held,
+/// before its time-out lets go. Nothing may be moved there until the guard has answered.
+link::UniqueFd LinkKeeper::borrow(const std::string& name) {
+  return guard_.borrow(name, [this] { hand_on(monotonic_now()); });
+}
+
 /// What it can reach now. It answers after it took, or refused, what it was handed before.
 void LinkKeeper::ask_guard() {
   for (std::size_t i = 0; i < wiring_.links.size(); ++i) {
     if (!is_guarded(i)) continue;
     auto& slot = slots_[i];
     const std::string name(wiring_.links[i].name);
-    const bool reaches = static_cast<bool>(guard_.borrow(name));
+    const bool reaches = static_cast<bool>(borrow(name));
     if (!guard_.connected()) return;
     // What it refused is told by itself, and keeps the robot from moving until a person resets it.
     const bool refused = guard_signs_.set_refused.load(std::memory_order_relaxed) != 0;

@@ -103,6 +103,8 @@ class GuardDouble final {
   void hang_up() { hangs_up_ = true; }
   /// While true it takes sets and answers nothing.
   std::atomic<bool> thinks{false};
+  /// What it had to say when nobody waited for it any more.
+  std::atomic<int> answers_lost{0};
 
  private:
   void serve() {
@@ -166,7 +168,7 @@ class GuardDouble final {
       const int any = listener_.get();
       std::memcpy(CMSG_DATA(c), &any, sizeof any);
     }
-    (void)::sendmsg(daemon_.get(), &header, MSG_NOSIGNAL);
+    if (::sendmsg(daemon_.get(), &header, MSG_NOSIGNAL) < 0) ++answers_lost;
   }
 
   link::UniqueFd listener_;
@@ -342,6 +344,17 @@ TEST_F(LinkKeeperWithARelay, AGuardThatHungIsGivenTheSetOnTheNextConnection) {
   for (int i = 0; i < 400; ++i, std::this_thread::sleep_for(5ms)) take();  // until it is given up
   guard_.thinks = false;
   EXPECT_TRUE(wait_until([&] { return sets() > before && keeper_.guard_equipped(); }));
+}
+
+/// Motors wait for 100 ms, and who only damps, or holds at rest, needs no guard.
+TEST_F(LinkKeeperWithARelay, ABusIsThereWhileAGuardThatHangsIsStillWaitedFor) {
+  guard_.thinks = true;
+  start();
+  ASSERT_TRUE(wait_until([this] { return is_open(0) && is_open(1); }));
+  EXPECT_FALSE(keeper_.guard_equipped()) << "nothing on it may be moved";
+  guard_.thinks = false;
+  ASSERT_TRUE(wait_until([this] { return keeper_.guard_equipped(); }));
+  EXPECT_EQ(guard_.answers_lost, 0) << "it was given up before";
 }
 
 TEST_F(LinkKeeperTest, ALinkThatOpensWhileTheGuardIsAwayMayNotBeMoved) {
