@@ -102,6 +102,16 @@ void Cia402Driver::begin_setup(Time now) {
   error_ = 0;
 }
 
+/// Its answers alone may be lost: the gateway's heartbeat goes on, so a drive that was driving would
+/// follow its last target for ever. What a person lets go of is told that, and is not enabled again.
+void Cia402Driver::feed_blindly(Time now, DriverOut& out) {
+  if (request_ == AxisRequest::idle && now - phase_since_ > kIdleAtLast) {
+    may_hold_ = false;
+    if (canopen::is_powered(status_.state())) send({canopen::kDisableVoltage, 0}, now, out);
+  }
+  if (may_hold_) send({canopen::kEnableOperation, 0}, now, out);
+}
+
 /// From silence to a node whose every object was read back and that says so.
 void Cia402Driver::keep_link(Time now, DriverOut& out) {
   if (silent(now) && link_ != Link::silent) {
@@ -115,6 +125,7 @@ void Cia402Driver::keep_link(Time now, DriverOut& out) {
     begin_setup(now);
   switch (link_) {
     case Link::silent:
+      feed_blindly(now, out);
       // It may have been started long ago and say nothing unless it is asked.
       if (now < next_question_) return;
       next_question_ = now + kAskEach;

@@ -63,6 +63,7 @@ class Cia402Driver final : public Device, public FrameFace, public Actuator {
   void lock(std::string_view why);
   void begin_setup(Time now);
   void keep_link(Time now, DriverOut& out);
+  void feed_blindly(Time now, DriverOut& out);
   void feed(Time now, DriverOut& out);
   void ask_for_the_error(Time now, DriverOut& out);
   void take(AxisRequest request, Time now);
@@ -92,6 +93,7 @@ class Cia402Driver final : public Device, public FrameFace, public Actuator {
   Status status_;
   std::optional<Position> position_;
   double velocity_radps_ = 0;
+  bool may_hold_ = false;    ///< by what it said last, or by what it was told since
   std::uint16_t error_ = 0;  ///< of the emergency message, or 603F
   std::uint64_t bad_setpoints_ = 0;
   ForeignCommand foreign_;

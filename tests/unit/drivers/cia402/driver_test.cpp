@@ -201,6 +201,74 @@ TEST(Cia402, IsGivenUpWhenItsNodeDiesAndRunsAgainOnlyByANewRequest) {
   EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
 }
 
+/// Holding the robot on a slope, or driving it down there; then its answers are lost, and it obeys.
+struct MuteBench : Bench {
+  explicit MuteBench(double radps = 0, const Options& with = options()) : Bench(with) {
+    arm();
+    load_Nm = 4;
+    run(milliseconds(1500), kRun, radps);
+    if (radps == 0) run(milliseconds(300), kRest);
+  }
+  void mute() {
+    sent.clear();
+    ASSERT_TRUE(twin->set_fault("silent", now));
+  }
+  std::ptrdiff_t zeros() const {
+    return std::count_if(sent.begin(), sent.end(),
+                         [](const CanFrame& each) { return describe(each) == "205#0F0000000000"; });
+  }
+};
+
+/// The gateway's heartbeat goes on, so it would follow its last target for ever.
+TEST(Cia402, IsStoppedAndHoldsOnWhileItsAnswersAreLost) {
+  for (const double radps : {0.0, 3.0}) {
+    MuteBench bench(radps);
+    bench.mute();
+    for (int i = 0; i < 600; ++i) {
+      bench.step({radps == 0 || i > 200 ? kRest : kRun, radps});
+      ASSERT_TRUE(bench.shaft.energized) << radps << " rad/s, cycle " << i;
+    }
+    EXPECT_GT(bench.zeros(), 400);
+    EXPECT_EQ(bench.status.state, AxisState::unknown);
+    EXPECT_NEAR(bench.shaft.velocity_radps, 0, 0.02) << "from " << radps << " rad/s";
+    bench.twin->set_fault("", bench.now);
+    for (int i = 0; i < 300; ++i) {
+      bench.step({kRest, 0});
+      ASSERT_TRUE(bench.shaft.energized) << "while it is set up anew, cycle " << i;
+    }
+    EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
+    EXPECT_NEAR(bench.shaft.velocity_radps, 0, 0.02);
+  }
+}
+
+/// A person lets go of it, and no time-out would: it is told so, and nothing enables it any more.
+TEST(Cia402, IsLetGoInSilenceWhenItIsReleased) {
+  MuteBench bench;
+  bench.mute();
+  bench.run(milliseconds(1000), kRest);
+  EXPECT_GT(bench.zeros(), 0);
+  bench.run(milliseconds(1500), AxisRequest::idle);
+  EXPECT_FALSE(bench.shaft.energized);
+  bench.sent.clear();
+  bench.run(milliseconds(500), kRest);
+  EXPECT_EQ(bench.zeros(), 0) << "it is to hold nothing any more";
+}
+
+TEST(Cia402, IsNotFedInSilenceWhenItHoldsNothing) {
+  Bench off;
+  off.run(milliseconds(1500), kRest);
+  ASSERT_EQ(off.status.state, AxisState::idle);
+  MuteBench restarted;
+  restarted.inject(parse_frame("705#00"));
+  for (Bench* bench : {&off, static_cast<Bench*>(&restarted)}) {
+    ASSERT_TRUE(bench->twin->set_fault("silent", bench->now));
+    bench->run(milliseconds(500), kRest);
+    bench->sent.clear();
+    bench->run(milliseconds(1000), kRest);
+    EXPECT_FALSE(bench->has_sent("205#0F0000000000"));
+  }
+}
+
 TEST(Cia402, SomebodyElsesCommandsAreAFaultAndTheGuardsAreNot) {
   for (const char* const frame :
        {"205#0F0064000000", "205#000000000000", "205#020000000000", "000#8000"}) {
