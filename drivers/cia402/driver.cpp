@@ -94,6 +94,7 @@ void Cia402Driver::lock(std::string_view why) {
 void Cia402Driver::begin_setup(Time now) {
   link_ = Link::setting_up;
   link_since_ = now;
+  may_hold_ = may_hold_ || held_;
   setup_.begin();
   status_ = {};
   command_ = {};
@@ -102,14 +103,15 @@ void Cia402Driver::begin_setup(Time now) {
   error_ = 0;
 }
 
-/// Its answers alone may be lost: the gateway's heartbeat goes on, so a drive that was driving would
-/// follow its last target for ever. What a person lets go of is told that, and is not enabled again.
+/// Its answers alone may be lost: the gateway's heartbeat goes on, so a drive that was driving
+/// would follow its last target for ever. What a person lets go of is told that, and is not enabled
+/// again.
 void Cia402Driver::feed_blindly(Time now, DriverOut& out) {
   if (request_ == AxisRequest::idle && now - phase_since_ > kIdleAtLast) {
-    may_hold_ = false;
+    may_hold_ = held_ = false;
     if (canopen::is_powered(status_.state())) send({canopen::kDisableVoltage, 0}, now, out);
   }
-  if (may_hold_) send({canopen::kEnableOperation, 0}, now, out);
+  if (may_hold_ || held_) send({canopen::kEnableOperation, 0}, now, out);
 }
 
 /// From silence to a node whose every object was read back and that says so.
@@ -270,6 +272,8 @@ void Cia402Driver::take(AxisRequest request, Time now) {
 void Cia402Driver::on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) {
   if (wanted.empty()) return;
   commanded_ = true;
+  // What was heard knows more.
+  held_ = wanted[0].held && heard_.last_alive == kNever;
   take(wanted[0].request, now);
   control(arms(wanted[0].request) ? target_of(wanted[0].velocity_radps) : 0, now, out);
 }

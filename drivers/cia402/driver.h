@@ -102,6 +102,7 @@ class Cia402Driver final : public Device, public FrameFace, public Actuator {
   Phase phase_ = Phase::resting;
   AxisRequest request_ = AxisRequest::rest;
   bool commanded_ = false;  ///< since the last tick
+  bool held_ = false;       ///< before this driver began, as it was told
   Time phase_since_ = kNever;
   bool fault_ = false;  ///< `lock_reason_` says which
   Reason lock_reason_;

@@ -100,7 +100,7 @@ void Cia402Driver::on_heartbeat(canopen::NodeState state, Time received) {
   heard_.last_alive = received;
   const bool booted = state == canopen::NodeState::boot_up;
   if (booted && attempts_to_run()) lock("the drive was restarted while armed");
-  if (booted) may_hold_ = false;
+  if (booted) may_hold_ = held_ = false;
   if (booted || link_ == Link::silent) return begin_setup(received);
   const bool operational = state == canopen::NodeState::operational;
   if (link_ == Link::starting && operational) link_ = Link::ready;

@@ -157,7 +157,7 @@ void OdriveDriver::arm(Time now, DriverOut& out) {
 void OdriveDriver::control(const Setpoint& command, Time now, DriverOut& out) {
   const bool holds = command.request == AxisRequest::hold;
   holding_turnps_ = holds ? motor_turnps(command.velocity_radps) : 0;
-  if (heard_.last_alive == kNever) return;  // never a frame to a node that was not heard
+  if (heard_.last_alive == kNever) return feed_blindly(command.held, now, out);
   if (attempts_to_run() && silent(now)) lock("heartbeat ceased while armed");
   if (phase_ == Phase::configuring || phase_ == Phase::arming) {
     if (now - phase_since_ > settings_.arming_timeout) {
@@ -199,6 +199,15 @@ void OdriveDriver::control(const Setpoint& command, Time now, DriverOut& out) {
     case Phase::locked: break;
   }
   if (has_room(out)) send_setpoint(phase_ == Phase::locked ? 0 : holding_turnps_, now, false, out);
+}
+
+/// Never a frame to a node that was not heard, unless it holds the robot, by what it said before
+/// its link was lost or by what the program before this one knew: its answers alone may be lost,
+/// and its watchdog would let go. A zero arms nothing. Not one that a person let go of.
+void OdriveDriver::feed_blindly(bool held, Time now, DriverOut& out) {
+  if (request_ == AxisRequest::idle) may_hold_ = false;
+  const bool feeds = (may_hold_ || held) && request_ != AxisRequest::idle;
+  if (feeds) send_setpoint(0, now, false, out);
 }
 
 /// Of this cycle: what is more than its share would be lost on the bus.

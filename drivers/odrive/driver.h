@@ -69,6 +69,7 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   void arm(Time now, DriverOut& out);
   void take(const Setpoint& command, Time now, DriverOut& out);
   void control(const Setpoint& command, Time now, DriverOut& out);
+  void feed_blindly(bool held, Time now, DriverOut& out);
 
   Settings settings_;
   AxisId axis_;
@@ -80,6 +81,8 @@ class OdriveDriver final : public Device, public FrameFace, public Actuator {
   double velocity_radps_ = 0;
   double effort_Nm_ = kAbsent;
   Time effort_at_ = kNever;
+
+  bool may_hold_ = false;  ///< closed loop, by what it said last, also before its link was lost
 
   FrameFilter hears_;  ///< all of its node
   RuleList rules_;

@@ -119,6 +119,7 @@ bool OdriveDriver::on_heartbeat(const CanFrame& frame, Time received, DriverOut&
   const bool failed_before = heartbeat_.failed();
   heard_.last_alive = received;
   heartbeat_ = *heartbeat;
+  may_hold_ = heartbeat->state == kStateClosedLoop;
   errors_.axis = heartbeat->error;
   if (heartbeat->failed() && !failed_before) poller_.hurry();
   follow_heartbeat(received);

@@ -116,7 +116,7 @@ void Zlac8015dDriver::begin_setup(bool booted, Time now) {
   last_speeds_ = last_status_ = kNever;
   positions_known_ = false;
   emergency_ = 0;
-  if (booted) may_hold_ = false;
+  may_hold_ = !booted && (may_hold_ || held_);
 }
 
 /// Its answers alone may be lost: a drive that holds the robot would let go by its time-out. Not
@@ -126,7 +126,7 @@ void Zlac8015dDriver::feed_blindly(Time now, DriverOut& out) {
   const Duration part = milliseconds(settings_.silence_ms) / kFeedsInSilence;
   const Duration each =
       part > Duration{} ? std::clamp<Duration>(part, kStepTakes, kAskEach) : kAskEach;
-  if (!may_hold_ || now - last_answer_ < each) return;
+  if (!(may_hold_ || held_) || now - last_answer_ < each) return;
   if (link_ == Link::silent) send_targets({}, now, false, out);
   // Whose set-up was not ended takes targets by its service channel alone; this asks it, too.
   if (now < next_question_) return;
@@ -282,6 +282,9 @@ void Zlac8015dDriver::take(AxisRequest request, Time now) {
 void Zlac8015dDriver::on_setpoints(std::span<const Setpoint> wanted, Time now, DriverOut& out) {
   commanded_ = true;
   const AxisRequest request = common(wanted);
+  // What was heard knows more.
+  held_ = heard_.last_alive == kNever && request != AxisRequest::idle &&
+          std::any_of(wanted.begin(), wanted.end(), [](const Setpoint& each) { return each.held; });
   take(request, now);
   control(targets_of(wanted, request), now, out);
 }

@@ -92,6 +92,7 @@ class Zlac8015dDriver final : public Device, public FrameFace, public Actuator {
   Time link_since_ = kNever;
   Time next_question_ = kNever;
   bool may_hold_ = false;  ///< by what it said last, or by what it was told since
+  bool held_ = false;      ///< before this driver began, as it was told
   Heard heard_;
   Time last_answer_ = kNever;  ///< by its service channel
   Time last_speeds_ = kNever;

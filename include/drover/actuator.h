@@ -64,6 +64,10 @@ struct AxisCommand {
   AxisRequest request = AxisRequest::rest;
   double velocity_radps = 0;  ///< at the joint
   Impedance impedance{};
+  /// It held the robot when it was heard last, also by the program before this one, and nothing has
+  /// ended that since. One that is not heard may obey all the same: it is fed with what keeps it
+  /// so, and never with what arms it.
+  bool held = false;
 };
 
 /// What a channel is to do, as its mode says. One with impedance, at AxisRequest::rest: a drive
@@ -73,6 +77,7 @@ struct Setpoint {
   double velocity_radps = 0;  ///< at the joint
   Twist twist{};              ///< of the base
   Impedance impedance{};
+  bool held = false;  ///< as in AxisCommand
 };
 
 /// What a message does to the machine, for the gate.

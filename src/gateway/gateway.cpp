@@ -131,7 +131,7 @@ Setpoint Gateway::setpoint(AxisId axis) const {
   const engine::BaseCommand& base = cycle_.engine.base;
   if (axis == kBaseAxis) return {base.request, 0, base.twist, {}};
   const AxisCommand& command = cycle_.engine.axes[axis];
-  return {command.request, command.velocity_radps, {}, command.impedance};
+  return {command.request, command.velocity_radps, {}, command.impedance, command.held};
 }
 
 /// A speed counts only while the drive is heard: a wheel that nobody sees is not ramped.

@@ -50,6 +50,41 @@ TEST(Cia402KillOnRamp, StaysStoppedUntilANewStartReachesTheGoal) {
   expect_new_start_succeeds(log, back);
 }
 
+// The gateway's heartbeat goes on, and so would the last target.
+TEST(Cia402MuteOnRamp, StopsAndHoldsTheRobotThoughTheAnswersOfBothAreLost) {
+  const Record& log = record("cia402_mute_on_ramp");
+  const Time mute = log.event("event mute#1");
+  const Time end = log.event("event looked_at#1");
+  ASSERT_TRUE(moved_until(log, mute)) << "it did not drive";
+  ASSERT_GT(log.truth_at(mute).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
+  tell_way_to_rest(log, mute, end);
+  const Roll rolled = roll(log, mute, end);
+  EXPECT_LT(rolled.rest - mute, 2s);
+  EXPECT_LT(rolled.way_m, 0.3);
+  const double held_m = roll(log, log.event("event killed#1"), end).way_m;
+  figure("way beside a droverd that never heard them", held_m, "m");
+  EXPECT_LT(held_m, 0.01);
+  for (const std::uint8_t node : {1, 2}) {
+    Time before = log.event("event killed#1");
+    Duration longest{};
+    for (const CanLine& line : log.can) {
+      if (line.time <= before || line.time > log.event("event heard#1")) continue;
+      const auto wheel = cia402::wheel_command(line.frame);
+      if (!wheel || wheel->node != node) continue;
+      EXPECT_FALSE(wheel->moves()) << "at " << seconds(line.time);
+      longest = std::max(longest, line.time - before);
+      before = line.time;
+    }
+    EXPECT_LE(longest, 100ms);
+  }
+}
+
+TEST(Cia402MuteOnRamp, StartsAnewWhenTheyAreHeard) {
+  const Record& log = record("cia402_mute_on_ramp");
+  EXPECT_LT(next_start(log, log.event("event looked_at#1")), Time::max());
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+}
+
 // Without power its wheel rolls on, and the robot turns about the one that brakes: no motor can
 // help.
 TEST(Cia402Dead, OfOneNodeStopsTheOtherAndIsToldInWords) {

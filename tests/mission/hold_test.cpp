@@ -216,6 +216,38 @@ TEST(StopAndKill, RefusesAStartUntilTheStopIsReset) {
   EXPECT_LT(log.feedback.at(3).time, reset);
 }
 
+// Their watchdogs would let go of the robot, and it rolled 7.5 m.
+TEST(UnheardOnRamp, IsHeldOnByADroverdThatNeverHeardItsDrives) {
+  const Record& log = record("unheard_on_ramp");
+  const Time mute = log.event("event mute#1");
+  const Time end = log.event("event looked_at#1");
+  ASSERT_GT(log.truth_at(mute).z_m - log.truth.front().z_m, 0.1) << "it is not on the ramp";
+  const double way_m = roll(log, mute, end).way_m;
+  figure("way", way_m, "m");
+  EXPECT_LT(way_m, 0.01);
+  const Time restarted = log.event("event restarted#1");
+  const Time heard = log.event("event heard#1");
+  EXPECT_THAT(log.moving(mute, end), testing::IsEmpty());
+  for (auto node = kFirstNode; node <= kLastNode; ++node) {
+    Time before = restarted;
+    Duration longest{};
+    for (const CanLine& line : log.can) {
+      if (line.time <= restarted || line.time > heard) continue;
+      const auto wheel = wheel_command(line.frame);
+      if (!wheel || wheel->node != node) continue;
+      longest = std::max(longest, line.time - before);
+      before = line.time;
+    }
+    EXPECT_LE(std::max(longest, heard - before), 50ms) << "node " << static_cast<int>(node);
+  }
+}
+
+TEST(UnheardOnRamp, StartsAnewWhenTheyAreHeard) {
+  const Record& log = record("unheard_on_ramp");
+  EXPECT_LT(next_start(log, log.event("event looked_at#1")), Time::max());
+  EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
+}
+
 TEST(StopAndKill, SaysAfterTheRestartWhyItIsStopped) {
   const Record& log = record("stop_and_kill");
   const Time back = log.event("start droverd", 2);

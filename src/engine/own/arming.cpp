@@ -131,6 +131,8 @@ void Arming::step(const ArmingInput& input, EventQueue& events) {
   take_back(input, armed_ && !input.driven && free && (config_.base.hold_again || asked_));
   for (std::size_t i = 0; i < input.axes.size(); ++i)
     commands_[i] = decide(input, static_cast<AxisId>(i));
+  for (std::size_t i = 0; i < input.axes.size(); ++i)
+    commands_[i].held = driven_[i] && armed_ && !input.power_cut;
   state_ = released_                     ? HoldState::released
            : wanted_ != kNever && free   ? HoldState::catching
            : input.health.drives_running ? HoldState::held

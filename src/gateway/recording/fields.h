@@ -82,7 +82,8 @@ void visit_fields(V& v, const engine::EngineOutput& output, const Snapshot& snap
   for (std::size_t i = 0; i < axis_count; ++i) {
     const bool beside_base = joints[i].group != 0;
     v.inside("commands", i, [&v, &part = axes[i], beside_base, may_move = joint_may_move[i]] {
-      const auto& [request, velocity_radps, impedance] = part;
+      const auto& [request, velocity_radps, impedance, held] = part;
+      (void)held;  // `remembered` tells as much
       v.value("request", request);
       v.value("velocity_radps", velocity_radps);
       if (!beside_base) return;

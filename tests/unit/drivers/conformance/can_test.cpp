@@ -92,6 +92,48 @@ TEST_P(CanVelocity, StopsAtRestAndHoldsAgainstALoad) {
   expect_decent(bench);
 }
 
+/// Its answers are lost, and it obeys: its own time-out would let go of the robot on a slope.
+TEST_P(CanVelocity, IsHeldOnByADriverThatNeverHeardItWhereItHeld) {
+  CanBench before(GetParam());
+  if (before.actuator->stop_recipe().ends != StopEnds::holds) return;
+  before.run(milliseconds(500), kRest);
+  before.run(milliseconds(1000), kRun, 0.0);
+  before.load_Nm = 4;
+  before.run(milliseconds(1000), kRest);
+  ASSERT_TRUE(before.twin->set_fault("silent", before.now));
+  for (const bool held : {true, false}) {
+    CanBench bench(GetParam());
+    bench.twin = std::move(before.twin);
+    bench.shafts[0] = before.shafts[0];
+    for (std::size_t i = 1; i < bench.shafts.size(); ++i) bench.shafts[i] = before.shafts[i];
+    bench.now = before.now;
+    bench.load_Nm = 4;
+    bench.held = held;
+    bench.device->on_link_up(bench.now);
+    bench.run(milliseconds(2000), kRest);
+    const auto stops = std::count_if(bench.sent.begin(), bench.sent.end(), [&](const auto& frame) {
+      return bench.effect_of(frame) == FrameEffect::stop;
+    });
+    for (const CanFrame& frame : bench.sent)
+      EXPECT_NE(bench.effect_of(frame), FrameEffect::motion) << describe(frame);
+    if (held) {
+      EXPECT_TRUE(bench.shaft.energized);
+      EXPECT_NEAR(bench.shaft.velocity_radps, 0.0, 0.02);
+      EXPECT_GT(stops, 0);
+      bench.run(milliseconds(1500), AxisRequest::idle);
+      bench.sent.clear();
+      bench.run(milliseconds(500), AxisRequest::idle);
+      for (const CanFrame& frame : bench.sent)
+        EXPECT_EQ(bench.effect_of(frame), FrameEffect::harmless) << describe(frame);
+    } else {
+      EXPECT_EQ(stops, 0) << "nobody knows that it held";
+    }
+    before.twin = std::move(bench.twin);
+    before.now = bench.now;
+    for (std::size_t i = 0; i < bench.shafts.size(); ++i) before.shafts[i] = bench.shafts[i];
+  }
+}
+
 TEST_P(CanConformance, GoesStaleWhenItsDeviceFallsSilent) {
   CanBench bench(GetParam());
   bench.run(milliseconds(500), kRest);

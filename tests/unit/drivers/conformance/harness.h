@@ -155,7 +155,7 @@ class CanBench {
 
   /// Of a channel with impedance by damping alone.
   Setpoint wish(AxisRequest request, double velocity_radps = 0) const {
-    return {request, velocity_radps, {}, law};
+    return {request, velocity_radps, {}, law, held};
   }
 
   void step(const Setpoint& command) {
@@ -220,6 +220,7 @@ class CanBench {
   double inertia_kgm2 = 0.4;
   double friction_Nms_per_rad = 0.2;
   bool driver_alive = true;
+  bool held = false;  ///< before its driver began
   std::set<std::uint32_t> ids;        ///< of what the twin said
   std::optional<std::uint32_t> lost;  ///< of them the one that does not reach the driver
   Time now{std::chrono::seconds(1)};

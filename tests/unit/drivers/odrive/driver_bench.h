@@ -42,7 +42,7 @@ class Bench {
       now += milliseconds(5);
       if (!heartbeat.empty() && ++since_beat % 20 == 0) hear(heartbeat);
       out.clear();
-      const Setpoint wanted[] = {{request, velocity_radps}};
+      const Setpoint wanted[] = {{request, velocity_radps, {}, {}, held}};
       driver.on_setpoints(wanted, now, out);
       driver.on_tick(now, out);
       note();
@@ -76,6 +76,7 @@ class Bench {
   StatusInWords status;
   int statuses = 0;
   int since_beat = 0;
+  bool held = false;  ///< before the driver began
 
  private:
   void note() {

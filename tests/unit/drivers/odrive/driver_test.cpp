@@ -16,6 +16,36 @@ TEST(OdriveDriver, SendsNothingBeforeAHeartbeat) {
   EXPECT_EQ(bench.status.state, AxisState::unknown);
 }
 
+/// Its answers alone may be lost, and it may hold the robot; a zero arms nothing.
+TEST(OdriveDriver, IsFedBeforeAHeartbeatWhereItHeldBefore) {
+  Bench bench;
+  bench.held = true;
+  bench.run(100, AxisRequest::rest);
+  EXPECT_EQ(bench.count(kZero), 100);
+  bench.run(100, AxisRequest::run, 1.0);
+  EXPECT_EQ(bench.count(kZero), 200);
+  EXPECT_EQ(bench.sent.size(), 200U);
+  bench.sent.clear();
+  bench.run(100, AxisRequest::idle);
+  EXPECT_TRUE(bench.sent.empty());
+}
+
+TEST(OdriveDriver, IsFedAfterANewLinkOnlyIfItWasInClosedLoop) {
+  for (const char* const beat : {kRunningBeat, kIdleBeat}) {
+    Bench bench;
+    bench.hear(beat);
+    bench.run(10, AxisRequest::rest);
+    bench.driver.on_link_up(bench.now);
+    bench.sent.clear();
+    bench.run(100, AxisRequest::rest);
+    EXPECT_EQ(bench.count(kZero), beat == kRunningBeat ? 100 : 0) << beat;
+    bench.run(1, AxisRequest::idle);
+    bench.sent.clear();
+    bench.run(100, AxisRequest::rest);
+    EXPECT_TRUE(bench.sent.empty()) << "it was let go";
+  }
+}
+
 TEST(OdriveDriver, IsNotWokenByEstimatesAlone) {
   Bench bench;
   bench.hear("069#00004841000050C0");

@@ -183,6 +183,44 @@ TEST_F(Holding, HoldsAgainAfterARestartHoweverLongItTook) {
   tick();
   EXPECT_EQ(asked(), AxisRequest::hold);
 }
+
+/// Nobody hears them, and they may hold the robot: they are fed, and never armed.
+TEST_F(Holding, SaysOfDrivesThatAreNotHeardThatTheyHeldBeforeARestart) {
+  for (AxisSnapshot& axis : axes) axis.health = SourceState::never_heard;
+  run_s(1);
+  EXPECT_FALSE(hold.command(0).held) << "nobody knows";
+  Remembered before;
+  before.holding = true;
+  hold.recall(before);
+  run_s(60);
+  EXPECT_TRUE(hold.command(0).held);
+  EXPECT_TRUE(hold.command(3).held);
+  EXPECT_EQ(asked(), AxisRequest::rest);
+}
+TEST_F(Holding, SaysOfNoDriveThatItHeldWhenAPersonLetGoOfItOrItsPowerWasCut) {
+  Remembered before;
+  before.holding = true;
+  const auto held_after = [&](auto what) {
+    hold = Arming(config);
+    hold.recall(before);
+    for (AxisSnapshot& axis : axes) axis.health = SourceState::never_heard;
+    tick();
+    EXPECT_TRUE(hold.command(0).held);
+    what();
+    tick();
+    return hold.command(0).held;
+  };
+  EXPECT_FALSE(held_after([&] { hold.release({}, {true}, {}, 0, now, events); }));
+  EXPECT_FALSE(held_after([&] { power_cut = true; }));
+  power_cut = false;
+  EXPECT_FALSE(held_after([&] { run_away = true; }));
+  run_away = false;
+  EXPECT_FALSE(held_after([&] {
+    health.estop = true;
+    health.causes = 1U << static_cast<unsigned>(Cause::estop);
+  }));
+}
+
 TEST_F(Holding, ArmsNothingAfterAnEstop) {
   drive_and_stop();
   health.estop = true;
