@@ -80,9 +80,18 @@ void CubemarsDriver::let_go(Time now) {
 }
 
 void CubemarsDriver::leave(Duration period, Time now, DriverOut& out) {
-  if (!is_due(talk_.last(), period, now)) return;
-  if (leaving_since_ == kNever) leaving_since_ = now;
+  const bool first = leaving_since_ == kNever;
+  if (!first && !is_due(talk_.last(), period, now)) return;
+  if (first) leaving_since_ = now;
   talk_.send(encode_special(settings_.joint.id, Special::disable), now, out);
+}
+
+/// Nobody else makes it damp: the guard may hang, and the motor hold a weight since before this
+/// program began. Damping enables nothing, and what pushes against it is on.
+void CubemarsDriver::damp_alone(Time now, DriverOut& out) {
+  const bool guarded = now - listening_since_ <= 2 * mit::kStopPeriod || guard_.goes_on(now);
+  if (phase_ != Phase::idling && !guarded && is_due(talk_.last(), kPoll, now))
+    send_command(damp_, now, out);
 }
 
 /// Each frame brings one answer, and none only asks. What is off is told again to let go; what may
@@ -90,7 +99,7 @@ void CubemarsDriver::leave(Duration period, Time now, DriverOut& out) {
 void CubemarsDriver::keep_alive(Time now, DriverOut& out) {
   if (listening_since_ == kNever) listening_since_ = now;
   const bool listens = power_ == Power::leaving && leaving_since_ == kNever;
-  if (listens && now - listening_since_ < kListen) return;
+  if (listens && now - listening_since_ < kListen) return damp_alone(now, out);
   const Time since = heard_.last_alive == kNever ? listening_since_ : heard_.last_alive;
   if (power_ == Power::unknown && now - since > kGivenUp) let_go(now);
   const bool stays_off = power_ == Power::leaving || power_ == Power::off;

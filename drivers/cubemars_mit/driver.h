@@ -61,6 +61,7 @@ class CubemarsDriver final : public Device, public FrameFace, public Actuator {
   void on_command(const CanFrame& frame, Time received);
   void on_feedback(const Feedback& feedback, Time received, DriverOut& out);
   void follow_feedback(Time now);
+  bool carries() const;
   void report_temperature(Time received, DriverOut& out);
   StatusInWords status(Time now) const;
   StatusInWords fault_status(StatusInWords status) const;
@@ -76,6 +77,7 @@ class CubemarsDriver final : public Device, public FrameFace, public Actuator {
   void look_at_gaps(Time now);
   void arm(Time now, DriverOut& out);
   void let_go(Time now);
+  void damp_alone(Time now, DriverOut& out);
   void keep_alive(Time now, DriverOut& out);
   void leave(Duration period, Time now, DriverOut& out);
   void send_command(const CanFrame& frame, Time now, DriverOut& out);

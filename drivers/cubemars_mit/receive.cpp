@@ -1,4 +1,6 @@
 // The receiving half of the driver: frames to measurements, status and health.
+#include <cmath>
+
 #include "drivers/cubemars_mit/driver.h"
 
 namespace drover::cubemars_mit {
@@ -10,6 +12,8 @@ constexpr Duration kSettle = milliseconds(20);
 /// An error that is there for longer after a request to run stays.
 constexpr Duration kErrorTime = milliseconds(250);
 constexpr Duration kTemperatureEach = milliseconds(500);
+/// Of the range of torque: less is an error of its current's measurement.
+constexpr double kCarries = 0.03;
 
 }  // namespace
 
@@ -29,13 +33,10 @@ void CubemarsDriver::on_frame(const CanFrame& frame, Time received, DriverOut& o
   on_feedback(*feedback, received, out);
 }
 
-/// Somebody else commands it. The guard is welcome, and what it makes damp may be on.
+/// Somebody else commands it, so it may be on. The guard is welcome.
 void CubemarsDriver::on_command(const CanFrame& frame, Time received) {
-  if (is_of_recipe(frame, recipe_)) {
-    guard_.heard(received);
-    if (power_ == Power::leaving && leaving_since_ == kNever) power_ = Power::unknown;
-    return;
-  }
+  if (power_ == Power::leaving && leaving_since_ == kNever) power_ = Power::unknown;
+  if (is_of_recipe(frame, recipe_)) return guard_.heard(received);
   foreign_.on_frame(frame.id, received);
   const auto special = mit::decode_special(frame, settings_.joint.id);
   if (special && (*special == Special::enable || power_ == Power::on)) power_ = Power::unknown;
@@ -65,12 +66,17 @@ void CubemarsDriver::report_temperature(Time received, DriverOut& out) {
   report_heard(temperature_, received, out);
 }
 
+/// It pushes against something, which what is off does not.
+bool CubemarsDriver::carries() const {
+  return std::abs(feedback_.motion.torque_Nm) > kCarries * settings_.joint.ranges.t_max_Nm;
+}
+
 /// What the newest answer means for what is under way.
 void CubemarsDriver::follow_feedback(Time now) {
   if (power_ == Power::leaving) {
-    // Heard before it was asked: somebody else speaks with it, and it may be on.
+    // Heard before it was spoken to: somebody else speaks with it, and it may be on.
     if (leaving_since_ == kNever) {
-      power_ = Power::unknown;
+      if (talk_.last() == kNever || carries()) power_ = Power::unknown;
     } else if (now - leaving_since_ >= kSettle) {
       power_ = Power::off;
     }

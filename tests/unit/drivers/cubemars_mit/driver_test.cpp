@@ -52,7 +52,10 @@ TEST(Cubemars, IsNeverEnabledByAQuestion) {
   bench.run(milliseconds(3000), AxisRequest::rest);
   EXPECT_EQ(bench.status.state, AxisState::idle);
   EXPECT_EQ(count(bench.sent, kEnable), 0);
-  EXPECT_EQ(count(bench.sent, kLeave), static_cast<std::ptrdiff_t>(bench.sent.size()));
+  const CanFrame damp = bench.actuator->stop_recipe().rounds[0].frames[0];
+  const auto asked = std::find(bench.sent.begin(), bench.sent.end(), kLeave);
+  EXPECT_EQ(std::count(bench.sent.begin(), asked, damp), asked - bench.sent.begin());
+  EXPECT_EQ(std::count(asked, bench.sent.end(), kLeave), bench.sent.end() - asked);
 }
 
 TEST(Cubemars, FollowsDampingFirstWhenItIsEnabled) {
@@ -121,6 +124,31 @@ TEST(Cubemars, IsMadeToDampByADriverThatNeverHeardItWhereTheGuardDidSo) {
   EXPECT_EQ(count(bench.sent, kEnable), 0);
   bench.run(milliseconds(1500), AxisRequest::rest);
   EXPECT_GT(count(bench.sent, kLeave), 0) << "given up after 3 s, as any that falls silent";
+}
+
+/// The guard hangs, or was never there: to ask it by letting it go would drop what it carries.
+TEST(Cubemars, IsMadeToDampByADriverThatBeginsWhereNobodyElseDoesSo) {
+  CanBench before(subject());
+  arm(before);
+  for (const bool carries : {true, false}) {
+    CanBench bench(subject());
+    bench.twin = std::move(before.twin);
+    bench.now = before.now;
+    bench.shaft.energized = true;
+    bench.device->on_link_up(bench.now);
+    bench.load_Nm = carries ? 1 : 0;
+    bench.run(milliseconds(2000), AxisRequest::rest);
+    if (carries) {
+      expect_damped(bench);
+      EXPECT_EQ(count(bench.sent, kLeave), 0);
+      EXPECT_EQ(bench.status.state, AxisState::unknown);
+    } else {
+      EXPECT_EQ(bench.status.state, AxisState::idle) << "what carries nothing is asked";
+    }
+    EXPECT_EQ(count(bench.sent, kEnable), 0);
+    before.twin = std::move(bench.twin);
+    before.now = bench.now;
+  }
 }
 
 TEST(Cubemars, IsLetGoThoughItWasNeverHeardWhenThatIsAsked) {
