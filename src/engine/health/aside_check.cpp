@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kFirstAside_mps = 0.05;
 constexpr Duration kStillAside = std::chrono::seconds(1);
-constexpr Duration kAsideMarkEach = std::chrono::milliseconds(10);
 constexpr int kMeanOfPlaces = 5;
 constexpr double kRestsAside_mps = 0.005;  // aside
 // As of the first way ahead: two positions in succession, or one.
@@ -51,7 +50,7 @@ AsideCheck::AsideCheck(const EngineConfig& config)
 
 void AsideCheck::forget_receiver(const AntennaConfig& antenna) {
   antenna_ = antenna;
-  marks_.fill({});
+  marks_.clear();
   places_ = odd_places_ = 0;
   has_origin_ = fresh_position_ = false;
 }
@@ -70,25 +69,6 @@ void AsideCheck::on_position(const GnssPosition& position, Time at) {
   position_ = position;
   position_at_ = at;
   fresh_position_ = true;
-}
-
-void AsideCheck::remember(const Mark& mark) {
-  const Mark& before = marks_[(next_mark_ + marks_.size() - 1) % marks_.size()];
-  if (before.at != kNever && mark.at - before.at < kAsideMarkEach) return;
-  marks_[next_mark_] = mark;
-  next_mark_ = (next_mark_ + 1) % marks_.size();
-}
-
-/// What the wheels had done at `at`; nullptr when it is too long ago, or nothing was known then.
-const AsideCheck::Mark* AsideCheck::mark_at(Time at) const {
-  const Mark* best = nullptr;
-  for (const Mark& mark : marks_) {
-    if (mark.at == kNever) continue;
-    const auto apart = [at](const Mark& m) { return m.at > at ? m.at - at : at - m.at; };
-    if (apart(mark) < 2 * kAsideMarkEach && (best == nullptr || apart(mark) < apart(*best)))
-      best = &mark;
-  }
-  return best;
 }
 
 void AsideCheck::look_from(const PathPoint& place, const Mark& wheels) {
@@ -128,7 +108,7 @@ void AsideCheck::judge(const PathPoint& place, const Mark& wheels, double sigma_
 
 void AsideCheck::compare() {
   fresh_position_ = false;
-  const Mark* wheels = mark_at(position_at_);
+  const Mark* wheels = marks_.at(position_at_);
   if (wheels == nullptr) return;
   const PathPoint place = way_between(wheels->place, ground_way(origin_, position_));
   const double sigma_m = place_sigma_m(position_, estimate_);
@@ -178,7 +158,7 @@ void AsideCheck::step(const AsideInput& input) {
   aside_.x_m -= input.body.vy_mps * s * dt_s;
   aside_.y_m += input.body.vy_mps * c * dt_s;
   const PathPoint arm{antenna_.x_m * c - antenna_.y_m * s, antenna_.x_m * s + antenna_.y_m * c};
-  remember({input.now, {way_.x_m + arm.x_m, way_.y_m + arm.y_m}, aside_, ahead_m_});
+  marks_.remember({input.now, {way_.x_m + arm.x_m, way_.y_m + arm.y_m}, aside_, ahead_m_});
   if (fresh_position_ && fault_.empty()) compare();
 }
 

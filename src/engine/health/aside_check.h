@@ -3,12 +3,11 @@
 // and rear wheels are listed the wrong way round: only a way aside shows that.
 #pragma once
 
-#include <array>
-
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/twist.h"
 #include "engine/config.h"
+#include "engine/health/mark_ring.h"
 
 namespace drover::engine {
 
@@ -55,8 +54,6 @@ class AsideCheck final {
     double ahead_m = 0;  ///< rolled, in either direction
   };
 
-  void remember(const Mark& mark);
-  const Mark* mark_at(Time at) const;
   void compare();
   void look_from(const PathPoint& place, const Mark& wheels);
   bool jumps(const PathPoint& place, const Mark& wheels, double sigma_m);
@@ -72,8 +69,7 @@ class AsideCheck final {
   double ahead_m_ = 0;
   double rolled_m_ = 0;  ///< aside, in either direction, since it was at fault last
   Time still_since_ = kNever;
-  std::array<Mark, 128> marks_{};
-  std::size_t next_mark_ = 0;
+  MarkRing<Mark> marks_;
   GnssPosition position_;
   Time position_at_ = kNever;
   bool fresh_position_ = false;

@@ -17,7 +17,6 @@ namespace {
 constexpr double kFirst_mps = 0.05;
 constexpr double kSpeedUp_s = 1.0;  // a ratio of ten is ten times as fast
 constexpr double kStill_s = 1.0;
-constexpr Duration kMarkEach = std::chrono::milliseconds(10);
 constexpr double kGyroStale_s = 0.1;
 constexpr double kHeadingStale_s = 0.5;
 constexpr double kMostDifference = 1.4;  // of a rim from the base, as a share of its speed
@@ -57,8 +56,7 @@ void MechanicsCheck::begin() {
   swing_.begin();
   guided_ = turn_known_ = false;
   last_ = {};
-  marks_.fill({});
-  next_mark_ = 0;
+  marks_.clear();
   heading_turn_rad_ = kAbsent;
   odd_places_ = 0;
   last_way_ = jumped_ = {};
@@ -115,27 +113,6 @@ void MechanicsCheck::begin_anew() {
   rest_ = {};
 }
 
-void MechanicsCheck::remember(Time now) {
-  last_.at = now;
-  const Mark& before = marks_[(next_mark_ + marks_.size() - 1) % marks_.size()];
-  if (before.at != kNever && now - before.at < kMarkEach) return;
-  marks_[next_mark_] = last_;
-  next_mark_ = (next_mark_ + 1) % marks_.size();
-}
-
-/// What the wheels had done at `at`; nullptr when it is too long ago.
-const MechanicsCheck::Mark* MechanicsCheck::mark_at(Time at) const {
-  const Mark* best = nullptr;
-  for (const Mark& mark : marks_) {
-    if (mark.at == kNever) continue;
-    const auto apart = [at](const Mark& m) { return m.at > at ? m.at - at : at - m.at; };
-    if (best == nullptr || apart(mark) < apart(*best)) best = &mark;
-  }
-  const bool near =
-      best != nullptr && best->at - at < 2 * kMarkEach && at - best->at < 2 * kMarkEach;
-  return near ? best : nullptr;
-}
-
 void MechanicsCheck::say_turn(double by_gyro_rad, double by_wheels_rad) {
   const bool heading = std::isfinite(heading_turn_rad_);
   const double by_receiver_rad = heading ? heading_turn_rad_ : 0;
@@ -172,7 +149,7 @@ void MechanicsCheck::compare_turn(const MechanicsInput& input) {
     if (apart(last_.gyro_rad, last_.turn_rad)) say_turn(last_.gyro_rad, last_.turn_rad);
     return;
   }
-  const Mark* then = std::isfinite(heading_turn_rad_) ? mark_at(heading_at_) : nullptr;
+  const Mark* then = std::isfinite(heading_turn_rad_) ? marks_.at(heading_at_) : nullptr;
   if (then == nullptr || !apart(heading_turn_rad_, then->turn_rad)) return;
   fault_.format("%s the robot turned %+.0f degrees, by the receiver %+.0f: %s", words_->by,
                 to_deg(then->turn_rad), to_deg(heading_turn_rad_), words_->wrong_turn);
@@ -309,12 +286,13 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   const bool was_past = past_first_way();
   rolled_m_ += std::abs(input.body.vx_mps) * dt_s;
   last_.rolled_m = rolled_m_;
-  remember(input.now);
+  last_.at = input.now;
+  marks_.remember(last_);
   if (!fault_.empty() || was_past) return;
   watch_swing(input);
   if (fault_.empty()) compare_turn(input);
   if (fresh_position_ && fault_.empty() && rest_.places >= kFewestPlaces) {
-    if (const Mark* then = mark_at(position_at_); then != nullptr) compare_way(*then);
+    if (const Mark* then = marks_.at(position_at_); then != nullptr) compare_way(*then);
   }
   fresh_position_ = false;
   if (!fault_.empty() || !past_first_way()) return;

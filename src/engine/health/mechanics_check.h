@@ -3,13 +3,12 @@
 // before they hurt.
 #pragma once
 
-#include <array>
-
 #include "drover/measurement.h"
 #include "drover/path.h"
 #include "drover/snapshot.h"
 #include "drover/twist.h"
 #include "engine/config.h"
+#include "engine/health/mark_ring.h"
 #include "engine/health/swing.h"
 
 namespace drover::engine {
@@ -90,8 +89,6 @@ class MechanicsCheck final {
   };
 
   void begin();
-  void remember(Time now);
-  const Mark* mark_at(Time at) const;
   bool hears_gyro(const MechanicsInput& input) const;
   /// By the gyro, or else the receiver, since the motion began; absent: nobody knows.
   double turned_rad(const MechanicsInput& input) const;
@@ -119,8 +116,7 @@ class MechanicsCheck final {
   double asked_rad_ = 0;     ///< turn commanded, as its wheels would tell it
   double yaw_slip_factor_ = 1;
   Mark last_;
-  std::array<Mark, 128> marks_{};
-  std::size_t next_mark_ = 0;
+  MarkRing<Mark> marks_;
   Rest rest_;
   GnssPosition position_;
   bool fresh_position_ = false;
