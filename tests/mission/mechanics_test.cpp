@@ -49,6 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Each, Mechanics,
                          testing::Values(WrongMechanics{"gear_ratio_10", "gear ratio"},
                                          WrongMechanics{"gear_ratio_2", "gear ratio"},
                                          WrongMechanics{"sides_swapped", "sides swapped"},
+                                         WrongMechanics{"sides_swapped_unseen", "sides swapped"},
                                          WrongMechanics{"axle_crossed", "swapped on one axle"},
                                          WrongMechanics{"wheel_reversed", "wheel reversed"}),
                          [](const auto& one) { return std::string(one.param.mission); });

@@ -17,6 +17,8 @@ namespace {
 constexpr double kFirst_mps = 0.05;
 constexpr double kSpeedUp_s = 1.0;  // a ratio of ten is ten times as fast
 constexpr double kStill_s = 1.0;
+constexpr Duration kSettles = std::chrono::milliseconds(200);
+constexpr Duration kHardlyMoves = std::chrono::milliseconds(300);  // it begins with a centimetre
 constexpr double kGyroStale_s = 0.1;
 constexpr double kHeadingStale_s = 0.5;
 constexpr double kMostDifference = 1.4;  // of a rim from the base, as a share of its speed
@@ -44,6 +46,7 @@ MechanicsCheck::MechanicsCheck(const EngineConfig& config)
       words_(&words_of(kinematics_of(config.base))),
       proved_(!(config.navigate.first_way_m > 0)),
       swing_(config.base, Swing::way_m(config.base, config.navigate.first_way_m)),
+      has_sides_(!takes_twist(kinematics_of(config.base))),
       antenna_(antenna_of(config.estimate, kMaxOfKind)) {
   // A base that steers needs a longer way for the same turns.
   config_.navigate.first_way_m = Swing::way_m(config.base, config.navigate.first_way_m);
@@ -54,6 +57,8 @@ void MechanicsCheck::begin() {
   began_ = now_;
   rolled_m_ = compared_m_ = asked_rad_ = 0;
   swing_.begin();
+  place_turn_.begin();
+  began_yaw_rad_ = yaw_rad_;
   guided_ = turn_known_ = false;
   last_ = {};
   marks_.clear();
@@ -70,20 +75,29 @@ void MechanicsCheck::on_position(const GnssPosition& position, Time at) {
   position_ = position;
   position_at_ = at;
   fresh_position_ = true;
-  if (moving_ && at >= began_) return;
+  Rest* rest = rest_at(at);
+  if (rest == nullptr) return;
   // A running mean of about a second.
-  const double share = 1.0 / std::min(++rest_.places, 10);
-  rest_.north_deg += share * (position.latitude_deg - rest_.north_deg);
-  rest_.east_deg += share * (position.longitude_deg - rest_.east_deg);
+  const double share = 1.0 / std::min(++rest->places, 10);
+  rest->north_deg += share * (position.latitude_deg - rest->north_deg);
+  rest->east_deg += share * (position.longitude_deg - rest->east_deg);
+}
+
+/// What is said of that moment is part of this mean; nullptr: it moved.
+MechanicsCheck::Rest* MechanicsCheck::rest_at(Time at) {
+  const bool few = rest_.places < kFewestPlaces;
+  if (!moving_ || at < began_ + (few ? kHardlyMoves : Duration{})) return &rest_;
+  const bool settled = still_since_ != kNever && at - still_since_ > kSettles;
+  return settled ? &settled_ : nullptr;
 }
 
 void MechanicsCheck::on_heading(const GnssHeading& heading, Time at) {
   if (proved_ || !std::isfinite(heading.heading_deg)) return;
   const double yaw_rad = yaw_rad_from_compass_deg(heading.heading_deg);
-  if (!moving_ || at < began_) {
-    const double share = 1.0 / std::min(++rest_.headings, 10);
-    rest_.heading_cos += share * (std::cos(yaw_rad) - rest_.heading_cos);
-    rest_.heading_sin += share * (std::sin(yaw_rad) - rest_.heading_sin);
+  if (Rest* rest = rest_at(at); rest != nullptr) {
+    const double share = 1.0 / std::min(++rest->headings, 10);
+    rest->heading_cos += share * (std::cos(yaw_rad) - rest->heading_cos);
+    rest->heading_sin += share * (std::sin(yaw_rad) - rest->heading_sin);
     return;
   }
   if (rest_.headings == 0) return;
@@ -100,7 +114,7 @@ void MechanicsCheck::on_turn(double turn_radps, Time at) {
 
 void MechanicsCheck::forget_receiver(const AntennaConfig& antenna) {
   antenna_ = antenna;
-  rest_ = {};
+  rest_ = settled_ = {};
   fresh_position_ = false;
   heading_turn_rad_ = kAbsent;
   heading_at_ = kNever;
@@ -110,7 +124,7 @@ void MechanicsCheck::forget_receiver(const AntennaConfig& antenna) {
 void MechanicsCheck::begin_anew() {
   if (proved_ || !past_first_way() || !fault_.empty()) return;
   moving_ = false;
-  rest_ = {};
+  rest_ = settled_;
 }
 
 void MechanicsCheck::say_turn(double by_gyro_rad, double by_wheels_rad) {
@@ -146,45 +160,50 @@ void MechanicsCheck::compare_turn(const MechanicsInput& input) {
     return std::abs(other_rad - wheels_rad) > kTurnMargin_rad + kTurnShare * std::abs(wheels_rad);
   };
   if (hears_gyro(input)) {
-    if (apart(last_.gyro_rad, last_.turn_rad)) say_turn(last_.gyro_rad, last_.turn_rad);
+    if (apart(last_.gyro_rad, last_.wheels.turn_rad))
+      say_turn(last_.gyro_rad, last_.wheels.turn_rad);
     return;
   }
   const Mark* then = std::isfinite(heading_turn_rad_) ? marks_.at(heading_at_) : nullptr;
-  if (then == nullptr || !apart(heading_turn_rad_, then->turn_rad)) return;
+  if (then == nullptr || !apart(heading_turn_rad_, then->wheels.turn_rad)) return;
   fault_.format("%s the robot turned %+.0f degrees, by the receiver %+.0f: %s", words_->by,
-                to_deg(then->turn_rad), to_deg(heading_turn_rad_), words_->wrong_turn);
+                to_deg(then->wheels.turn_rad), to_deg(heading_turn_rad_), words_->wrong_turn);
 }
 
-void MechanicsCheck::say_no_swing(bool by_gyro) {
-  const double seen_rad = swing_.turned_rad();
-  if (by_gyro && std::isfinite(heading_turn_rad_) &&
-      std::abs(heading_turn_rad_ - last_.gyro_rad) > kTurnMargin_rad) {
-    say_turn(last_.gyro_rad, last_.turn_rad);
-    return;
-  }
+/// What a turn that did not come may be for.
+Reason MechanicsCheck::why_no_turn() const {
   const auto& left = config_.base.left;
   const auto& right = config_.base.right;
   Reason why = words_->no_swing;
-  if (left.size() == 2 && right.size() == 2) {
-    const auto name = [this](AxisId id) { return config_.joints[id].view(); };
-    const auto pair = [&](std::size_t i) {
-      FixedText<100> both;
-      const std::string_view l = name(left[i]);
-      const std::string_view r = name(right[i]);
-      both.format("%.*s/%.*s", static_cast<int>(l.size()), l.data(), static_cast<int>(r.size()),
-                  r.data());
-      return both;
-    };
-    const auto front = pair(0);
-    const auto rear = pair(1);
-    why.format("are the sides swapped on one axle (%.*s or %.*s)?",
-               static_cast<int>(front.view().size()), front.view().data(),
-               static_cast<int>(rear.view().size()), rear.view().data());
+  if (left.size() != 2 || right.size() != 2) return why;
+  const auto name = [this](AxisId id) { return config_.joints[id].view(); };
+  const auto pair = [&](std::size_t i) {
+    FixedText<100> both;
+    const std::string_view l = name(left[i]);
+    const std::string_view r = name(right[i]);
+    both.format("%.*s/%.*s", static_cast<int>(l.size()), l.data(), static_cast<int>(r.size()),
+                r.data());
+    return both;
+  };
+  const auto front = pair(0);
+  const auto rear = pair(1);
+  why.format("are the sides swapped on one axle (%.*s or %.*s)?",
+             static_cast<int>(front.view().size()), front.view().data(),
+             static_cast<int>(rear.view().size()), rear.view().data());
+  return why;
+}
+
+void MechanicsCheck::say_no_swing(bool by_gyro) {
+  if (by_gyro && std::isfinite(heading_turn_rad_) &&
+      std::abs(heading_turn_rad_ - last_.gyro_rad) > kTurnMargin_rad) {
+    say_turn(last_.gyro_rad, last_.wheels.turn_rad);
+    return;
   }
+  const Reason why = why_no_turn();
   const bool slips = swing_.wheels_rad() != 0;
   fault_.format("%s %+.0f degrees, by the %s %+.0f: %.*s", slips ? words_->turned : "asked to turn",
                 to_deg(slips ? swing_.wheels_rad() : swing_.asked_rad()),
-                by_gyro ? "gyro" : "receiver", to_deg(seen_rad),
+                by_gyro ? "gyro" : "receiver", to_deg(swing_.turned_rad()),
                 static_cast<int>(why.view().size()), why.view().data());
 }
 
@@ -196,7 +215,8 @@ void MechanicsCheck::watch_swing(const MechanicsInput& input) {
   const double turned = turned_rad(input);
   turn_known_ = turn_known_ || std::isfinite(turned);
   if (!guided_) return;
-  swing_.step({rolled_m_, asked_rad_, last_.turn_rad, turned});
+  swing_.step({rolled_m_, asked_rad_, last_.wheels.turn_rad, turned, shown_by_places(),
+               place_turn_.verdict() == PlaceTurn::Verdict::right});
   if (swing_.failed()) say_no_swing(hears_gyro(input));
 }
 
@@ -217,12 +237,46 @@ bool MechanicsCheck::jumps(const PathPoint& way, const Mark& wheels, double sigm
   return true;
 }
 
-void MechanicsCheck::compare_way(const Mark& wheels) {
+/// With one antenna and no gyro. What takes a twist turns by itself, and has no sides that somebody
+/// could have swapped.
+bool MechanicsCheck::shown_by_places() const {
+  return has_sides_ && !turn_known_ && rest_.places >= kFewestPlaces &&
+         std::isfinite(began_yaw_rad_);
+}
+
+void MechanicsCheck::compare_aside(const PathPoint& went, const Mark& wheels, double sigma_m) {
+  if (!shown_by_places()) return;
+  const double c = std::cos(began_yaw_rad_);
+  const double s = std::sin(began_yaw_rad_);
+  place_turn_.look(wheels.wheels, {went.x_m * c + went.y_m * s, went.y_m * c - went.x_m * s},
+                   antenna_, sigma_m);
+  if (place_turn_.verdict() == PlaceTurn::Verdict::open ||
+      place_turn_.verdict() == PlaceTurn::Verdict::right)
+    return;
+  const bool against = place_turn_.verdict() == PlaceTurn::Verdict::against;
+  const Reason why = against ? Reason(words_->wrong_turn) : why_no_turn();
+  fault_.format("%s %+.0f degrees, by where the receiver went %+.0f: %.*s", words_->turned,
+                to_deg(place_turn_.wheels_rad()), to_deg(place_turn_.turned_rad()),
+                static_cast<int>(why.view().size()), why.view().data());
+}
+
+void MechanicsCheck::compare_place(const Mark& wheels) {
   GnssPosition from = position_;
   from.latitude_deg = rest_.north_deg;
   from.longitude_deg = rest_.east_deg;
-  PathPoint way = ground_way(from, position_);
-  const double turn_rad = std::isfinite(heading_turn_rad_) ? heading_turn_rad_ : wheels.turn_rad;
+  const PathPoint went = ground_way(from, position_);
+  const double sigma_m = place_sigma_m(position_, config_.estimate);
+  const PathPoint jumped_before = jumped_;
+  compare_way(went, wheels, sigma_m);
+  const bool jumps_now = jumped_.x_m != jumped_before.x_m || jumped_.y_m != jumped_before.y_m;
+  if (jumps_now || !fault_.empty()) return;
+  compare_aside({went.x_m - jumped_.x_m, went.y_m - jumped_.y_m}, wheels, sigma_m);
+}
+
+void MechanicsCheck::compare_way(const PathPoint& went, const Mark& wheels, double sigma_m) {
+  PathPoint way = went;
+  const double turn_rad =
+      std::isfinite(heading_turn_rad_) ? heading_turn_rad_ : wheels.wheels.turn_rad;
   const double yaw0_rad = yaw_rad_ - turn_rad;
   if (std::isfinite(yaw_rad_)) {
     // The antenna swings about the base as it turns.
@@ -237,8 +291,7 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
     way.x_m -= after.x_m - before.x_m;
     way.y_m -= after.y_m - before.y_m;
   }
-  const double sigma = place_sigma_m(position_, config_.estimate);
-  if (jumps(way, wheels, sigma)) return;
+  if (jumps(way, wheels, sigma_m)) return;
   compared_m_ = wheels.rolled_m;
   way.x_m -= jumped_.x_m;
   way.y_m -= jumped_.y_m;
@@ -252,8 +305,8 @@ void MechanicsCheck::compare_way(const Mark& wheels) {
   const double too_little_m =
       std::abs(rolled_m) > kShortest_m ? std::abs(rolled_m) - kWayRatio * gone_m : 0.0;
   const double odd_m = std::max(too_much_m, too_little_m);
-  odd_places_ = odd_m > kWaySigmas * sigma ? odd_places_ + 1 : 0;
-  if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma)) return;
+  odd_places_ = odd_m > kWaySigmas * sigma_m ? odd_places_ + 1 : 0;
+  if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma_m)) return;
   if (back) {
     fault_.format("%s %+.2f m, the receiver went %+.2f m: %s", words_->rolled, rolled_m, ahead_m,
                   words_->wrong_way);
@@ -269,11 +322,14 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   yaw_rad_ = input.yaw_rad;
   yaw_slip_factor_ = input.yaw_slip_factor;
   const bool still = !input.commanded && input.fastest_mps < kStands_mps;
-  if (!still) still_since_ = kNever;
+  if (!still) {
+    still_since_ = kNever;
+    settled_ = {};
+  }
   if (still && still_since_ == kNever) still_since_ = input.now;
   if (moving_ && still && input.now - still_since_ >= from_s(kStill_s)) {
     moving_ = false;
-    rest_ = {};
+    rest_ = settled_;
     fault_.clear();
   }
   if (!moving_ && input.commanded) begin();
@@ -282,7 +338,10 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   if (goes_sideways(input.body)) rest_ = {};
   const double dt_s = std::max(to_s(input.dt), 0.0);
   last_.way_m += input.body.vx_mps * dt_s;
-  last_.turn_rad += input.body.wz_radps / config_.base.yaw_slip_factor * dt_s;
+  WheelsWay& wheels = last_.wheels;
+  wheels.turn_rad += input.body.wz_radps / config_.base.yaw_slip_factor * dt_s;
+  wheels.ahead_m += input.body.vx_mps * std::cos(wheels.turn_rad) * dt_s;
+  wheels.left_m += input.body.vx_mps * std::sin(wheels.turn_rad) * dt_s;
   const bool was_past = past_first_way();
   rolled_m_ += std::abs(input.body.vx_mps) * dt_s;
   last_.rolled_m = rolled_m_;
@@ -292,12 +351,14 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   watch_swing(input);
   if (fault_.empty()) compare_turn(input);
   if (fresh_position_ && fault_.empty() && rest_.places >= kFewestPlaces) {
-    if (const Mark* then = marks_.at(position_at_); then != nullptr) compare_way(*then);
+    if (const Mark* then = marks_.at(position_at_); then != nullptr) compare_place(*then);
   }
   fresh_position_ = false;
   if (!fault_.empty() || !past_first_way()) return;
   went_first_ = true;
-  const bool swung = !turn_known_ || (guided_ && swing_.happened());
+  const bool by_places = has_sides_ && !turn_known_;
+  const bool swung = by_places ? place_turn_.verdict() == PlaceTurn::Verdict::right
+                               : !turn_known_ || (guided_ && swing_.happened());
   proved_ =
       swung && odd_places_ == 0 && compared_m_ >= kComparedShare * config_.navigate.first_way_m;
 }
@@ -319,7 +380,7 @@ Reason MechanicsCheck::slowly(FirstWay who) const {
     // Never "0.00 m are left".
     why.format("slowly: %s, gyro and receiver are compared on the first %.3g m, %.2f m are left",
                words_->wheels, first_m, std::max(left_m, 0.01));
-  } else if (guided_ && !swing_.is_over()) {
+  } else if (guided_ && (awaits_turn() || !swing_.is_over())) {
     why = "slowly: it was not seen to turn to both sides yet";
   } else {
     why.format("slowly: %s, gyro and receiver could not be compared yet", words_->wheels);

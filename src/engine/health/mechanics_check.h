@@ -9,6 +9,7 @@
 #include "drover/twist.h"
 #include "engine/config.h"
 #include "engine/health/mark_ring.h"
+#include "engine/health/place_turn.h"
 #include "engine/health/swing.h"
 
 namespace drover::engine {
@@ -66,7 +67,12 @@ class MechanicsCheck final {
   /// Nothing more is compared in this motion: it went on for the first way, and has swung, where
   /// it is this that steers.
   bool past_first_way() const {
-    return moving_ && rolled_m_ >= config_.navigate.first_way_m && (!guided_ || swing_.is_over());
+    return moving_ && rolled_m_ >= config_.navigate.first_way_m && (!guided_ || swing_.is_over()) &&
+           !awaits_turn();
+  }
+  /// It could be shown by places, and was not yet: nobody knows which way it turns.
+  bool awaits_turn() const {
+    return guided_ && shown_by_places() && place_turn_.verdict() == PlaceTurn::Verdict::open;
   }
 
   /// Since the motion began.
@@ -74,8 +80,8 @@ class MechanicsCheck final {
     Time at = kNever;
     double way_m = 0;     ///< by the wheels, ahead positive
     double rolled_m = 0;  ///< likewise, in either direction
-    double turn_rad = 0;  ///< by the wheels
     double gyro_rad = 0;
+    WheelsWay wheels;
   };
   /// The mean of what the receiver said at rest.
   struct Rest {
@@ -89,13 +95,18 @@ class MechanicsCheck final {
   };
 
   void begin();
+  Rest* rest_at(Time at);
   bool hears_gyro(const MechanicsInput& input) const;
   /// By the gyro, or else the receiver, since the motion began; absent: nobody knows.
   double turned_rad(const MechanicsInput& input) const;
   void compare_turn(const MechanicsInput& input);
   void watch_swing(const MechanicsInput& input);
+  Reason why_no_turn() const;
   void say_no_swing(bool by_gyro);
-  void compare_way(const Mark& wheels);
+  bool shown_by_places() const;
+  void compare_place(const Mark& wheels);
+  void compare_way(const PathPoint& went, const Mark& wheels, double sigma_m);
+  void compare_aside(const PathPoint& went, const Mark& wheels, double sigma_m);
   bool jumps(const PathPoint& way, const Mark& wheels, double sigma_m);
   void say_turn(double by_gyro_rad, double by_wheels_rad);
 
@@ -111,6 +122,9 @@ class MechanicsCheck final {
   double compared_m_ = 0;    ///< of that, until the receiver's last position that was compared
   bool went_first_ = false;  ///< a first way was gone to its end, compared or not
   Swing swing_;
+  PlaceTurn place_turn_;
+  bool has_sides_;  ///< wheels of its own, on two sides, with which it turns
+  double began_yaw_rad_ = kAbsent;
   bool guided_ = false;      ///< the swing is asked for
   bool turn_known_ = false;  ///< somebody could tell of a swing
   double asked_rad_ = 0;     ///< turn commanded, as its wheels would tell it
@@ -118,6 +132,7 @@ class MechanicsCheck final {
   Mark last_;
   MarkRing<Mark> marks_;
   Rest rest_;
+  Rest settled_;  ///< while it moves by name only: it stands, for less than kStill_s
   GnssPosition position_;
   bool fresh_position_ = false;
   Time position_at_ = kNever;

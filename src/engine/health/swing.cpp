@@ -25,6 +25,10 @@ const double kMostAskedOnCurves_rad = to_rad(15.0);
 // Wheels that skid show a third in the worst case, those of one axle nearly all. What wheels do
 // that work against each other is slip.
 const double kByWheels_rad = to_rad(10.0);
+// Where only places show it: aside they show a tenth of the way and more.
+const double kWide_rad = to_rad(12.0);
+constexpr double kWideMore = 2.0;
+constexpr double kWideStraight_m = 0.6;  // at most
 constexpr double kLeastOfSkidding = 0.2;
 constexpr double kLeastOfRolling = 0.4;
 
@@ -48,7 +52,7 @@ void Swing::begin() {
   phase_ = Phase::before;
   from_ = {};
   beyond_m_ = 0;
-  known_ = left_ = right_ = failed_ = false;
+  wide_ = aslant_ = known_ = left_ = right_ = failed_ = false;
   asked_rad_ = wheels_rad_ = 0;
   turned_rad_ = kAbsent;
 }
@@ -65,6 +69,7 @@ double Swing::least_m() const {
 }
 
 double Swing::radpm() const {
+  if (wide_) return aslant_ ? 0 : side() * kWideMore * usual_radpm();
   const double more = 1 + std::max(beyond_m_, 0.0) / (kSwingShare * first_m_);
   return side() * std::min(more, most_more_) * usual_radpm();
 }
@@ -77,7 +82,20 @@ bool Swing::happened() const {
   return !known_ || (left_ && right_);
 }
 
+/// Of each side as much as the wheels say; whoever follows badly gets a longer way for it.
+bool Swing::wide_ends(const SwingInput& input) const {
+  const double gone_m = input.rolled_m - from_.rolled_m;
+  switch (phase_) {
+    case Phase::left: return input.shown || gone_m >= kLongest * least_m() + kWideStraight_m;
+    case Phase::right:
+      return from_.wheels_rad - input.wheels_rad >= 2 * kWide_rad || gone_m >= kLongest * least_m();
+    case Phase::back: return input.wheels_rad >= 0 || gone_m >= kLongest * least_m();
+    default: return gone_m >= least_m();
+  }
+}
+
 bool Swing::ends(const SwingInput& input) const {
+  if (wide_) return wide_ends(input);
   const double gone_m = input.rolled_m - from_.rolled_m;
   const bool known = std::isfinite(input.turned_rad);
   // Where it came from it goes on.
@@ -110,9 +128,15 @@ void Swing::step(const SwingInput& input) {
   if (known && !std::isfinite(from_.turned_rad)) from_ = input;
   if (is_over() || failed_) return;
   judge(input);
+  if (phase_ == Phase::before) wide_ = input.by_places && !known_;
+  const double turned_rad = input.wheels_rad - from_.wheels_rad;
+  const double gone_m = input.rolled_m - from_.rolled_m;
+  aslant_ = wide_ && phase_ == Phase::left &&
+            (aslant_ || turned_rad >= kWide_rad || gone_m >= kLongest * least_m());
   while (!is_over() && ends(input)) {
     phase_ = static_cast<Phase>(static_cast<int>(phase_) + 1);
     from_ = input;
+    aslant_ = false;
   }
   beyond_m_ = input.rolled_m - from_.rolled_m - least_m();
 }

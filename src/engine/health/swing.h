@@ -14,12 +14,15 @@ struct SwingInput {
   double asked_rad = 0;         ///< commanded; by the same account as the next one
   double wheels_rad = 0;        ///< by the base's own account
   double turned_rad = kAbsent;  ///< by the gyro, or else the receiver; absent: nobody knows
+  bool by_places = false;       ///< where nobody does, the receiver's places are to show it
+  bool shown = false;           ///< and have shown it
 };
 
 /// Straight, left, right, left again, straight. What drives do not follow at once, or tyres take
 /// up, is no turn yet: each side is asked for longer, and for more, until it is seen to have
 /// turned. One whose command is hindered (by an obstacle, say) is given up after a way, and proves
-/// nothing.
+/// nothing. Where only places show a turn it is a wider one, with a straight way behind the first
+/// turn: there they show it.
 class Swing final {
  public:
   /// Over a way of `first_m`, where the robot turns as it is asked to.
@@ -52,6 +55,7 @@ class Swing final {
   double least_m() const;
   bool turns() const { return phase_ == Phase::left || phase_ == Phase::right; }
   bool ends(const SwingInput& input) const;
+  bool wide_ends(const SwingInput& input) const;
   void judge(const SwingInput& input);
 
   double first_m_;
@@ -61,6 +65,8 @@ class Swing final {
   Phase phase_ = Phase::before;
   SwingInput from_;      ///< where the phase began
   double beyond_m_ = 0;  ///< rolled in this phase longer than usual
+  bool wide_ = false;
+  bool aslant_ = false;  ///< of a wide one: it has turned, and goes straight on
   bool known_ = false;
   bool left_ = false;
   bool right_ = false;
