@@ -10,14 +10,16 @@ namespace {
 // Of its largest effort:
 constexpr double kPushes = 0.1;   ///< less may be friction, or its neighbours' motion
 constexpr double kCarries = 0.8;  ///< so much against a weight, and no weight gets faster
-constexpr double kChanged = 0.3;  ///< so much more or less turns what is there by some bits
+constexpr double kChanged = 0.2;  ///< so much more or less turns what is there by some bits
 constexpr double kProved_rad = 0.1;
 constexpr double kBeside = 0.5;  ///< of its set point's speed
 constexpr double kAgainst_rad = 0.03;
 constexpr double kFlees_radps = 0.2;
 constexpr double kSlower = 0.9;  ///< than it was: who brakes
 constexpr double kFaster = 1.3;  ///< than when that began: nobody brakes it
-constexpr double kStands_s = 0.05;
+// What is told reaches a drive a cycle later, and what it does is told another one later; each cycle
+// more makes it faster.
+constexpr double kStands_s = 0.018;
 constexpr double kRunsOn_radps = 0.5;
 // What was so fast a moment ago does not stand so still so soon, whatever it ran into:
 constexpr double kTurned_radps = 0.3;

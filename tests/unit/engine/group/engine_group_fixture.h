@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <deque>
 #include <string>
 
 #include "unit/engine/engine_rig.h"
@@ -44,7 +45,8 @@ class EngineGroup : public ::testing::Test {
     const Time told = rig.now + kRigTick;
     for (std::size_t i = 0; i < arm.size(); ++i) {
       const auto axis = static_cast<AxisId>(first + i);
-      if (!deaf) arm[i].obey(guards ? AxisCommand{} : rig.out.axes[axis]);
+      const AxisCommand told_now = guards ? AxisCommand{} : rig.out.axes[axis];
+      if (!deaf) arm[i].obey(late_cycles > 0 ? late(i, told_now) : told_now);
       for (int k = 0; k < 5; ++k) arm[i].step(to_s(kRigTick) / 5);
       rig.environment.axes[axis].state = silent[i] ? SourceState::stale : SourceState::fresh;
       if (silent[i] || mute) continue;
@@ -96,10 +98,16 @@ class EngineGroup : public ::testing::Test {
   std::array<bool, kArmNames.size()> silent{};
   RequestId::Source source = RequestId::Source::aimrt;  ///< of what is sent
   bool guards = false;                                  ///< the guard commands the drives
+  std::size_t late_cycles = 0;                          ///< it reaches the drives so much later
   bool deaf = false;  ///< what the drives are told waits on their line
   bool mute = false;  ///< and so does what they tell, not long enough to be missed
 
  private:
+  AxisCommand late(std::size_t i, const AxisCommand& told_now) {
+    underway_[i].push_back(told_now);
+    if (underway_[i].size() > late_cycles + 1) underway_[i].pop_front();
+    return underway_[i].front();
+  }
   template <class Value>
   void measure(Time time, const Value& value, const char* words = "") {
     Measurement m;
@@ -108,6 +116,8 @@ class EngineGroup : public ::testing::Test {
     rig.engine->on_measurement(m);
     rig.engine->on_words(m, words);
   }
+
+  std::array<std::deque<AxisCommand>, kArmNames.size()> underway_;
 };
 
 }  // namespace drover::engine

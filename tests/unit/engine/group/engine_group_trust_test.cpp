@@ -105,6 +105,31 @@ TEST_F(EngineGroupTrust, FindsAnEncoderThatStandsInMotionBeforeItsJointIsFast) {
   EXPECT_LT(fastest_radps, 2);
 }
 
+/// From rest nobody knows before its torque has grown: then at once, for it is fast by then.
+TEST_F(EngineGroupTrust, FindsAnEncoderThatStandsFromRestBeforeItsJointIsFast) {
+  settle();
+  watch_s(2.5, -1);
+  ASSERT_EQ(told().state, GroupState::following) << reason();
+  ASSERT_LT(std::abs(arm[1].velocity_radps), 1e-3);
+  arm[1].stands = true;
+  fastest_radps = hardest_Nm = 0;
+  watch_s(1, 0.5);
+  EXPECT_EQ(said("it stands to the bit while its torque changed"), 1) << reason();
+  std::printf("  at most %.1f Nm, %.1f rad/s\n", hardest_Nm, fastest_radps);
+  EXPECT_LT(fastest_radps, 1.5);
+}
+
+/// What it is told reaches its drive some cycles late, and what that does is told late, too.
+TEST_F(EngineGroupTrust, BelievesADriveThatAnswersThreeCyclesLate) {
+  settle();
+  watch_s(2.5, -1);
+  late_cycles = 3;
+  for (const double to_rad : {0.5, -1.0, 0.3, -0.9}) watch_s(2.5, to_rad);
+  EXPECT_EQ(said("its encoder stands still"), 0);
+  EXPECT_EQ(told().state, GroupState::following) << reason();
+  EXPECT_NEAR(arm[1].position_rad, -0.9, 0.05);
+}
+
 /// Nobody looked meanwhile: it had its time to come to rest.
 TEST_F(EngineGroupTrust, BelievesAJointThatTheGuardBroughtToRest) {
   settle();
