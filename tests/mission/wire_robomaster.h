@@ -14,15 +14,26 @@ namespace drover::mission::robomaster {
 
 inline constexpr std::size_t kMotors = 4;
 
-/// What makes a motor turn cannot be seen in a current alone: one against the turn brakes, and less
-/// than friction moves nothing. So it reads what the motors tell, too.
+/// What makes a motor turn cannot be seen in a current alone: one against the turn brakes, one that
+/// lets it back slowly, where it went against that same current, holds, and less than friction
+/// moves nothing. So it reads what the motors tell, too.
 class Bus {
  public:
   /// Of a command: the current of each motor that drives it, in A; 0 of one that does not.
   std::optional<std::array<float, kMotors>> drives_A(const CanFrame& frame);
 
  private:
-  std::array<int, kMotors> rpm_{};
+  /// What a motor told.
+  struct Told {
+    int rpm = 0;
+    int angle = 0;
+    int counts = 0;  ///< asked for last
+    int away = 0;    ///< in parts of a turn, since that has its sign
+  };
+  static void take(Told& told, int angle, int rpm);
+  static bool drives(Told& told, int counts);
+
+  std::array<Told, kMotors> told_{};
 };
 
 /// A command in which each current is zero: what the guard sends.

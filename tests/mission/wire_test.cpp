@@ -230,6 +230,27 @@ TEST(MissionWire, TellsACurrentThatDrivesAMotorFromOneThatBrakesIt) {
   EXPECT_NEAR((*drives_A)[3], 1.25, 0.01);
 }
 
+/// One wheel, of which others push: -0.9 A hold it while it gives way and while it comes back.
+TEST(MissionWire, TellsACurrentThatHoldsAMotorWhereItStoodFromOneThatDrivesItAway) {
+  robomaster::Bus bus;
+  const auto drives = [&bus](const char* told, const char* command) {
+    EXPECT_FALSE(bus.drives_A(frame(told)));
+    return (*bus.drives_A(frame(command)))[0] != 0;
+  };
+  const char* back = "200#FD1F000000000000";   // -0.9 A
+  const char* ahead = "200#02E1000000000000";  // 0.9 A
+  EXPECT_TRUE(drives("201#1FF0000000001900", back)) << "it stands";
+  EXPECT_FALSE(drives("201#00500002FD1F1900", back)) << "it is pushed, over the turn's end";
+  EXPECT_FALSE(drives("201#00600000FD1F1900", back)) << "it stands against it";
+  EXPECT_FALSE(drives("201#0058FFFEFD1F1900", back)) << "it is let back";
+  EXPECT_TRUE(drives("201#0050FFE0FD1F1900", back)) << "it is driven back";
+  EXPECT_TRUE(drives("201#1FF5FFFEFD1F1900", back)) << "it is where it stood, and goes on";
+  EXPECT_TRUE(drives("201#1F80FFFEFD1F1900", back)) << "beyond";
+  EXPECT_TRUE(drives("201#1F900002FD1F1900", ahead)) << "driven ahead";
+  EXPECT_TRUE(drives("201#1FD00000FD1F1900", back)) << "another current: it stands anew";
+  EXPECT_TRUE(drives("201#1FC0FFFEFD1F1900", back));
+}
+
 TEST(MissionWire, ReadsWhatADamiaoIsToldAndTells) {
   const auto told = damiao::set_point(frame("003#8A3C7FF0A31997FF"));
   ASSERT_TRUE(told);
