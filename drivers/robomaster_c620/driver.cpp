@@ -56,6 +56,7 @@ RobomasterDriver::RobomasterDriver(const Settings& settings,
     : settings_(settings),
       axes_(axes),
       motors_{Motor(settings_, 0), Motor(settings_, 1), Motor(settings_, 2), Motor(settings_, 3)},
+      loose_(settings_.friction_Nm),
       hears_(filters_of(settings)),
       recipe_(recipe_of(settings)) {
   rule_.id = settings.command_id();
@@ -70,10 +71,12 @@ void RobomasterDriver::lock(const Reason& why) {
 }
 
 void RobomasterDriver::start_arming(Time now) {
+  const Phase phase_before = phase_;
   phase_ = Phase::arming;
   phase_since_ = now;
   lock_reason_.clear();
   for (Motor& motor : motors_) motor.begin_anew();
+  if (phase_before == Phase::locked) loose_.begin_anew();
   if (const Reason silent = silence_of_any(settings_.stale_after, now); !silent.empty())
     lock(silent);
 }
@@ -106,7 +109,20 @@ Reason RobomasterDriver::fault_of(std::size_t channel) const {
     why.format(
         "%.*s tells the same angle however hard it is pushed: its sensor, or its wheel, is stuck",
         size, name.view().data());
+  if (loose_.is_loose(channel))
+    why.format(
+        "%.*s turns as if nothing hung on it, whatever the others carry: is its wheel loose on the "
+        "shaft, or in the air?",
+        size, name.view().data());
   return why;
+}
+
+void RobomasterDriver::watch_loads(Duration dt) {
+  if (phase_ != Phase::running || !engaged_) return;
+  std::array<Load, kMotors> loads;
+  for (std::size_t i = 0; i < kMotors; ++i)
+    loads[i] = {motors_[i].velocity_radps(), motors_[i].effort_Nm()};
+  loose_.step(loads, dt);
 }
 
 /// It is no fault of one of them.
@@ -174,6 +190,7 @@ void RobomasterDriver::control(std::span<const Setpoint> wanted, Time now, Drive
   const Duration since = last_control_ == kNever ? Duration{} : now - last_control_;
   const Duration dt = std::clamp(since, Duration{}, kLongestStep);
   last_control_ = now;
+  watch_loads(dt);
   look_at_motors(now);
   if (phase_ == Phase::idling) let_go_after(kIdleAtLast, now);
   if (phase_ == Phase::resting && doubtful_ && silence_of_any(settings_.stale_after, now).empty()) {

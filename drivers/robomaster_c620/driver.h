@@ -7,6 +7,7 @@
 #pragma once
 
 #include "drivers/drives.h"
+#include "drivers/robomaster_c620/loose.h"
 #include "drivers/robomaster_c620/motor.h"
 #include "drover/driver.h"
 
@@ -63,6 +64,7 @@ class RobomasterDriver final : public Device, public FrameFace, public Actuator 
   void start_arming(Time now);
   void take(AxisRequest request, Time now);
   void look_at_motors(Time now);
+  void watch_loads(Duration dt);
   Reason fault_of(std::size_t channel) const;
   bool none_has_current() const;
   bool all_slow() const;
@@ -73,6 +75,7 @@ class RobomasterDriver final : public Device, public FrameFace, public Actuator 
   Settings settings_;
   std::array<AxisId, kMotors> axes_;
   std::array<Motor, kMotors> motors_;
+  LooseWatch loose_;
   std::array<FrameFilter, kMotors + 1> hears_;
   FrameRule rule_;
   StopRecipe recipe_;

@@ -10,6 +10,16 @@ namespace drover::robomaster {
 namespace {
 
 constexpr double kHot_degC = 95;
+// Behind the gear of an M3508: what turns with a shaft that nothing hangs on, and what rubs there.
+constexpr double kRotor_kgm2 = 0.006;
+constexpr double kRubs_Nm = 0.045;
+
+/// The speed of a shaft that nothing hangs on, after this.
+double turned_freely_radps(double radps, double torque_Nm, double dt_s) {
+  const double pushed_radps = radps + torque_Nm / kRotor_kgm2 * dt_s;
+  const double rubs_radps = kRubs_Nm / kRotor_kgm2 * dt_s;
+  return std::copysign(std::max(std::abs(pushed_radps) - rubs_radps, 0.0), pushed_radps);
+}
 
 }  // namespace
 
@@ -32,13 +42,13 @@ void RobomasterTwin::set_power(bool on, Time now) {
 }
 
 bool RobomasterTwin::set_fault(std::string_view name, Time) {
-  constexpr std::pair<std::string_view, bool Unit::*> kFaults[] = {
-      {"silent", &Unit::silent},
-      {"no_torque", &Unit::torn},
-      {"stuck_encoder", &Unit::stuck},
-      {"over_temperature", &Unit::hot}};
+  constexpr std::pair<std::string_view, bool Unit::*> kFaults[] = {{"silent", &Unit::silent},
+                                                                   {"no_torque", &Unit::torn},
+                                                                   {"stuck_encoder", &Unit::stuck},
+                                                                   {"over_temperature", &Unit::hot},
+                                                                   {"loose", &Unit::loose}};
   if (name.empty())
-    for (Unit& unit : units_) unit.silent = unit.torn = unit.stuck = unit.hot = false;
+    for (Unit& unit : units_) unit.silent = unit.torn = unit.stuck = unit.hot = unit.loose = false;
   bool known = name.empty();
   for (const auto& [fault, flag] : kFaults) {
     if (name == fault)
@@ -78,16 +88,23 @@ void RobomasterTwin::on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out)
 void RobomasterTwin::move(std::size_t channel, double dt_s, Shaft& shaft) {
   Unit& unit = units_[channel];
   const double sign = settings_.sign[channel];
-  if (!unit.stuck) {
-    unit.angle_rad = shaft.position_rad * sign * settings_.gear_ratio;
-    unit.rotor_radps = shaft.velocity_radps * sign * settings_.gear_ratio;
-  } else {
+  const double to_rotor = sign * settings_.gear_ratio;
+  if (!unit.loose) unit.free_radps = shaft.velocity_radps;
+  if (unit.stuck) {
     unit.rotor_radps = 0;
+  } else {
+    unit.rotor_radps = unit.free_radps * to_rotor;
+    unit.angle_rad =
+        unit.loose ? unit.angle_rad + unit.rotor_radps * dt_s : shaft.position_rad * to_rotor;
   }
   unit.told_current = booted_ && !unit.torn ? unit.current : std::int16_t{0};
   const double current_A = unit.told_current / settings_.counts_per_A;
   shaft.torque_Nm = current_A * settings_.Nm_per_A * sign;
   shaft.energized = booted_;
+  if (unit.loose) {
+    unit.free_radps = turned_freely_radps(unit.free_radps, shaft.torque_Nm, dt_s);
+    shaft.torque_Nm = 0;
+  }
   const double heats_W = current_A * current_A * twin_.winding_ohm;
   const double cools_W = (unit.degC - twin_.ambient_degC) / twin_.thermal_resistance_KpW;
   unit.degC += (heats_W - cools_W) / twin_.thermal_capacity_JpK * dt_s;

@@ -33,7 +33,8 @@ class RobomasterTwin final : public CanTwin {
   void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
   void set_power(bool on, Time now) override;
   /// Known: "silent" (they tell nothing, and still obey), "silent:2" (the second one alone),
-  /// "no_torque:2" (a line of its motor is torn), "stuck_encoder:2", "over_temperature:2".
+  /// "no_torque:2" (a line of its motor is torn), "stuck_encoder:2", "over_temperature:2",
+  /// "loose:2" (it turns in its wheel and does not take it along).
   bool set_fault(std::string_view name, Time now) override;
 
  private:
@@ -47,6 +48,8 @@ class RobomasterTwin final : public CanTwin {
     bool torn = false;
     bool stuck = false;
     bool hot = false;
+    bool loose = false;
+    double free_radps = 0;  ///< of its shaft, which nothing hangs on
   };
   void boot(Time now);
   void move(std::size_t channel, double dt_s, Shaft& shaft);

@@ -90,6 +90,20 @@ TEST(MecanumTurnsTorn, IsToldAndStopsTheRobotAslant) {
                           "front_left: motor 1 (201)", 0.22, 5);
 }
 
+TEST(MecanumLoose, IsToldAndStopsTheRobot) {
+  const Record& log = record("mecanum_loose");
+  const Time loose = log.event("event loose#1");
+  const auto& error = log.first_status("NAV_ERROR", loose);
+  figure("told after", error.time - loose);
+  const auto from = log.truth_at(loose);
+  const auto to = log.truth_at(error.time);
+  figure("way", std::hypot(to.x_m - from.x_m, to.y_m - from.y_m), "m");
+  EXPECT_LT(error.time - loose, 15s);
+  EXPECT_THAT(error.why, testing::HasSubstr("wheel front_right: motor 2 (202) turns as if nothing "
+                                            "hung on it, whatever the others carry"));
+  EXPECT_THAT(log.moving(error.time + 2s, Time::max()), testing::IsEmpty());
+}
+
 /// How long a motor was asked for a current and told that it has none, at the longest.
 Duration longest_without(const Record& log, std::uint32_t motor) {
   // 16384 are 20 A: half as much again as running friction, 0.35 A, and half of it.

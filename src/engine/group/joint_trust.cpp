@@ -17,8 +17,8 @@ constexpr double kAgainst_rad = 0.03;
 constexpr double kFlees_radps = 0.2;
 constexpr double kSlower = 0.9;  ///< than it was: who brakes
 constexpr double kFaster = 1.3;  ///< than when that began: nobody brakes it
-// What is told reaches a drive a cycle later, and what it does is told another one later; each cycle
-// more makes it faster.
+// What is told reaches a drive a cycle later, and what it does is told one later; each cycle more
+// makes it faster.
 constexpr double kStands_s = 0.018;
 constexpr double kRunsOn_radps = 0.5;
 // What was so fast a moment ago does not stand so still so soon, whatever it ran into:

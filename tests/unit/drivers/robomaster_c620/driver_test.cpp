@@ -256,6 +256,32 @@ TEST(Robomaster, FindsATornMotorWhoseWheelTurnsAsItShould) {
   }
 }
 
+/// Up and down: the others carry more and less. With a gain as for a wheel without load.
+TEST(Robomaster, FindsAWheelThatIsLooseOnItsShaft) {
+  CanBench bench(subject({{"velocity_gain_Nms_per_rad", 0.3}}));
+  bench.twin->set_fault("loose:2", bench.now);
+  drive(bench);
+  for (int i = 0; i < 8 && bench.status.state == AxisState::running; ++i) {
+    bench.load_Nm = i % 2 == 0 ? 0.5 : 1.5;
+    bench.run(milliseconds(1000), AxisRequest::run, 3.0);
+  }
+  EXPECT_EQ(bench.status.state, AxisState::fault);
+  EXPECT_EQ(bench.status.reason.view(),
+            "motor 2 (202) turns as if nothing hung on it, whatever the others carry: is its wheel "
+            "loose on the shaft, or in the air?");
+  EXPECT_NE(bench.statuses[1].error_code, 0U);
+}
+
+TEST(Robomaster, TakesNoHealthyWheelForALooseOne) {
+  CanBench bench(subject({{"velocity_gain_Nms_per_rad", 0.3}}));
+  drive(bench);
+  for (int i = 0; i < 20; ++i) {
+    bench.load_Nm = i % 2 == 0 ? 0.0 : 1.5;
+    bench.run(milliseconds(700), AxisRequest::run, i % 5 == 0 ? -3.0 : 3.0);
+  }
+  EXPECT_EQ(bench.status.state, AxisState::running) << bench.status.reason.view();
+}
+
 /// What none of them does is not one motor's: they hear nothing, or have no supply.
 TEST(Robomaster, NamesNoMotorWhenNoneHasACurrent) {
   CanBench bench(subject());
