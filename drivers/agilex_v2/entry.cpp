@@ -2,6 +2,7 @@
 
 #include "drivers/agilex_v2/driver.h"
 #include "drivers/agilex_v2/twin.h"
+#include "drivers/checked_options.h"
 
 namespace drover {
 namespace {
@@ -10,8 +11,9 @@ using agilex_v2::AgilexV2Driver;
 using agilex_v2::AgilexV2Twin;
 
 Made make(const Options& options, const MakeContext& context) {
-  return make_device<AgilexV2Driver>(context.axis(0), std::optional<agilex_v2::Steering>(),
-                                     options.flag("zero_holds"));
+  return make_device<AgilexV2Driver>(
+      context.axis(0), std::optional<agilex_v2::Steering>(),
+      CheckedOptions(options, agilex_v2::option_table()).flag("zero_holds"));
 }
 
 std::unique_ptr<CanTwin> make_twin(const Options& options) {

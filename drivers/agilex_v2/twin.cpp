@@ -1,7 +1,6 @@
 #include "drivers/agilex_v2/twin.h"
 
 #include "drivers/agilex_v2/chassis.h"
-#include "drivers/checked_options.h"
 
 namespace drover::agilex_v2 {
 namespace {
@@ -46,10 +45,13 @@ std::span<const OptionSpec> twin_option_table() {
 }
 
 AgilexV2Twin::AgilexV2Twin(const Options& options)
-    : wheel_radius_m_(CheckedOptions(options, kTwinOptions).number("wheel_radius_m")),
-      track_m_(CheckedOptions(options, kTwinOptions).number("track_m")),
-      max_torque_Nm_(CheckedOptions(options, kTwinOptions).number("max_torque_Nm")),
-      zero_holds_(options.flag("zero_holds")) {
+    : AgilexV2Twin(CheckedOptions(options, kTwinOptions), CheckedOptions(options, kOptions)) {}
+
+AgilexV2Twin::AgilexV2Twin(const CheckedOptions& own, const CheckedOptions& of_driver)
+    : wheel_radius_m_(own.number("wheel_radius_m")),
+      track_m_(own.number("track_m")),
+      max_torque_Nm_(own.number("max_torque_Nm")),
+      zero_holds_(of_driver.flag("zero_holds")) {
   state_.battery_V = kFull_V;
 }
 

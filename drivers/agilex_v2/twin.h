@@ -5,6 +5,7 @@
 
 #include "drivers/agilex_v2/codec.h"
 #include "drivers/agilex_v2/servo.h"
+#include "drivers/checked_options.h"
 #include "drover/options.h"
 #include "drover/twin.h"
 
@@ -26,6 +27,7 @@ class AgilexV2Twin final : public CanTwin {
   void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
 
  private:
+  AgilexV2Twin(const CheckedOptions& own, const CheckedOptions& of_driver);
   bool awake(Time now) const;
   Twist obeyed(Time now) const;
   void turn(std::span<Shaft> shafts, const Twist& twist, double dt_s);

@@ -114,15 +114,17 @@ Made make(const Options& options, const MakeContext&) {
 }
 
 /// It has the options of both.
-std::unique_ptr<CanImuTwin> make_twin(const Options& options, std::uint64_t seed) {
+std::unique_ptr<CanImuTwin> make_twin(const Options& given, std::uint64_t seed) {
+  const Settings settings = read_settings(given);
+  const CheckedOptions options(given, kTwinOptions);
   TwinSettings own;
-  own.period = from_s(1 / options.number("rate_Hz"));
+  own.period = from_s(1 / given.number("rate_Hz"));
   own.rate_sigma_radps = to_rad(options.number("rate_sigma_dps"));
   own.rate_bias_sigma_radps = to_rad(options.number("bias_sigma_dps"));
   own.acceleration_sigma_mps2 = options.number("acceleration_sigma_mps2");
   own.acceleration_bias_sigma_mps2 = options.number("acceleration_bias_sigma_mps2");
   own.attitude_sigma_rad = to_rad(options.number("attitude_sigma_deg"));
-  return std::make_unique<HipnucCanTwin>(read_settings(options), own, seed);
+  return std::make_unique<HipnucCanTwin>(settings, own, seed);
 }
 
 constexpr std::string_view kHipnucCanProducts[] = {"hipnuc", "hi12", "hi13", "hi14", "ch10"};

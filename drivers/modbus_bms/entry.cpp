@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "drivers/checked_options.h"
 #include "drivers/modbus_bms/driver.h"
 #include "drivers/modbus_bms/twin.h"
 
@@ -67,21 +68,22 @@ Made make(const Options& options, const MakeContext& context) {
   return make_device<ModbusBmsDriver>(read_settings(options), *context.registers);
 }
 std::unique_ptr<RegisterTwin> make_twin(const Options& options, const RegisterMap& map) {
-  return std::make_unique<ModbusBmsTwin>(options, map);
+  return std::make_unique<ModbusBmsTwin>(all_checked(options, kTwinOptions), map);
 }
 
 constexpr std::string_view kModbusBmsProducts[] = {"daly", "jk", "jkbms", "jkpb", "jikong"};
 
 }  // namespace
 
-Settings read_settings(const Options& options) {
+Settings read_settings(const Options& given) {
+  const CheckedOptions options(given, kOptions);
   Settings settings;
-  settings.stale_after = from_s(options.number("stale_s"));
+  settings.stale_after = options.seconds("stale_s");
   settings.current_reversed = options.text("current_sign") == "reversed";
   settings.min_voltage_V = options.number("min_voltage_V");
   settings.max_voltage_V = options.number("max_voltage_V");
   settings.charger_current_A = options.number("charger_current_A");
-  settings.charger_after = from_s(options.number("charger_after_s"));
+  settings.charger_after = options.seconds("charger_after_s");
   if (settings.min_voltage_V >= settings.max_voltage_V)
     throw std::runtime_error("min_voltage_V must be below max_voltage_V");
   return settings;

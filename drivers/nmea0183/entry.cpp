@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "drivers/checked_options.h"
 #include "drivers/nmea0183/driver.h"
 #include "drivers/nmea0183/twin.h"
 
@@ -117,10 +118,10 @@ const OptionSpec kTwinOptions[] = {
 };
 
 Made make(const Options& options, const MakeContext&) {
-  return make_device<Nmea0183Driver>(options);
+  return make_device<Nmea0183Driver>(all_checked(options, kOptions));
 }
 std::unique_ptr<GnssTwin> make_twin(const Options& options, std::uint64_t seed) {
-  return std::make_unique<Nmea0183Twin>(options, seed);
+  return std::make_unique<Nmea0183Twin>(all_checked(options, kTwinOptions), seed);
 }
 
 constexpr std::string_view kNmea0183Products[] = {"um980", "um982",   "unicore", "zedf9",

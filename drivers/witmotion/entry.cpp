@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "drivers/checked_options.h"
 #include "drivers/witmotion/driver.h"
 #include "drivers/witmotion/twin.h"
 
@@ -130,10 +131,12 @@ const OptionSpec kTwinOptions[] = {
 };
 
 Made make(const Options& options, const MakeContext&) {
-  return make_device<WitmotionDriver>(options);
+  return make_device<WitmotionDriver>(all_checked(options, kOptions));
 }
+/// It has the options of both.
 std::unique_ptr<ImuTwin> make_twin(const Options& options, std::uint64_t seed) {
-  return std::make_unique<WitmotionTwin>(options, seed);
+  return std::make_unique<WitmotionTwin>(all_checked(all_checked(options, kOptions), kTwinOptions),
+                                         seed);
 }
 
 constexpr std::string_view kWitmotionProducts[] = {"wt901", "hwt905", "hwt906",

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "drivers/agilex_v2/chassis.h"
-#include "drivers/checked_options.h"
 
 namespace drover::agilex_v2 {
 namespace {
@@ -42,10 +41,13 @@ std::span<const OptionSpec> hunter_twin_option_table() {
 }
 
 HunterTwin::HunterTwin(const Options& options, const Steering& steering)
+    : HunterTwin(CheckedOptions(options, kHunterTwinOptions), steering) {}
+
+HunterTwin::HunterTwin(const CheckedOptions& own, const Steering& steering)
     : steering_(steering),
-      wheel_radius_m_(CheckedOptions(options, kHunterTwinOptions).number("wheel_radius_m")),
-      max_torque_Nm_(CheckedOptions(options, kHunterTwinOptions).number("max_torque_Nm")),
-      rate_radps_(CheckedOptions(options, kHunterTwinOptions).number("steering_rate_radps")) {
+      wheel_radius_m_(own.number("wheel_radius_m")),
+      max_torque_Nm_(own.number("max_torque_Nm")),
+      rate_radps_(own.number("steering_rate_radps")) {
   state_.battery_V = kFull_V;
   state_.brake_locked = true;  // as it was left
 }

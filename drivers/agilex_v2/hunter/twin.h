@@ -6,6 +6,7 @@
 #include "drivers/agilex_v2/codec.h"
 #include "drivers/agilex_v2/servo.h"
 #include "drivers/agilex_v2/steering.h"
+#include "drivers/checked_options.h"
 #include "drover/options.h"
 #include "drover/twin.h"
 
@@ -28,6 +29,7 @@ class HunterTwin final : public CanTwin {
   void on_tick(Time now, std::span<Shaft> shafts, TwinFrames& out) override;
 
  private:
+  HunterTwin(const CheckedOptions& own, const Steering& steering);
   bool awake(Time now) const { return powered_ && now >= booted_; }
   bool locked() const { return state_.brake_locked || brake_stuck_; }
   void watch_silence(Time now);

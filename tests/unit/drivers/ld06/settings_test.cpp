@@ -39,7 +39,7 @@ TEST(Ld06Settings, SayWhereItIsMounted) {
     ASSERT_NE(spec, table.end());
     EXPECT_TRUE(spec->required) << name << ": nobody guesses where a scanner is";
   }
-  EXPECT_EQ(refusal_of(Options(option_table())), "option missing: mount_x_m");
+  EXPECT_EQ(refusal_of(Options(option_table())), "mount_x_m is missing");
 }
 
 TEST(Ld06Settings, ReadAnOutlineInMetres) {
