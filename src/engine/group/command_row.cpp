@@ -14,12 +14,28 @@ constexpr Duration kPause = 1s;
 
 }  // namespace
 
+Duration CommandRow::steady_for() const {
+  return std::max(kSteadyFor, timeout_);
+}
+
+/// After a row that was steady, or before another's first, a silence is no sender's pace.
+Duration CommandRow::gap_before(Time now) const {
+  const bool none = !was_taken() || now - taken_ >= kPause || changed_hands_;
+  return none || taken_ - since_ >= steady_for() ? Duration{} : now - taken_;
+}
+
+void CommandRow::change_hands() {
+  changed_hands_ = true;
+  gap_ = {};
+}
+
 void CommandRow::take(const JointTarget& target, Time now) {
   overhear(now);
   if (!goes_on(now)) {
-    gap_ = !was_taken() || now - taken_ >= kPause ? Duration{} : now - taken_;
+    gap_ = gap_before(now);
     since_ = now;
   }
+  changed_hands_ = false;
   taken_ = now;
   target_ = target;
 }
@@ -30,7 +46,7 @@ void CommandRow::overhear(Time now) {
 }
 
 bool CommandRow::is_steady(Time now) const {
-  return goes_on(now) && now - since_ >= std::max(kSteadyFor, timeout_);
+  return goes_on(now) && now - since_ >= steady_for();
 }
 
 bool CommandRow::is_over(Time now) const {

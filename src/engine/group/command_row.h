@@ -15,6 +15,8 @@ class CommandRow final {
   /// `timeout`: longer without a command, and they have ceased.
   explicit CommandRow(Duration timeout) : timeout_(timeout) {}
 
+  /// What comes next is sent by somebody else.
+  void change_hands();
   /// A command that is taken, in the joint's own frame (rad, rad/s, Nm).
   void take(const JointTarget& target, Time now);
   /// One that is taken by others of its group.
@@ -36,16 +38,20 @@ class CommandRow final {
   bool is_steady(Time now) const;
   /// They ceased, and that is long ago.
   bool is_over(Time now) const;
-  /// Before this row, when its commands come too far apart; else nothing.
+  /// Between its sender's last two commands, when they came too far apart; else nothing.
   Duration gap() const { return gap_; }
 
  private:
+  Duration steady_for() const;
+  Duration gap_before(Time now) const;
+
   Duration timeout_;
   JointTarget target_;
   Time taken_ = kNever;  ///< the last that was
   Time said_ = kNever;   ///< likewise, or one that was refused, or was others'
   Time since_ = kNever;  ///< without a gap
   Duration gap_{};
+  bool changed_hands_ = false;  ///< since the last that was taken
   bool must_pause_ = false;
 };
 

@@ -58,10 +58,12 @@ void JointGroup::take(const JointTargets& targets, RequestId::Source source, Tim
     refuse({}, now);
     return;
   }
+  const auto sender = source == RequestId::Source::ros2 ? GroupOwner::ros2 : GroupOwner::broker;
   bool mine = false;
   for (const JointTarget& target : targets.joints) {
     for (JointServo& joint : joints_) {
       if (joint.rules().axis != target.axis) continue;
+      if (sender != sender_) joint.change_hands();
       joint.take(target, now);
       mine = true;
     }
@@ -70,7 +72,7 @@ void JointGroup::take(const JointTargets& targets, RequestId::Source source, Tim
   // Who names joints in turn pauses for none of them.
   for (JointServo& joint : joints_) joint.overhear(now);
   ++waiting_;
-  sender_ = source == RequestId::Source::ros2 ? GroupOwner::ros2 : GroupOwner::broker;
+  sender_ = sender;
 }
 
 void JointGroup::refuse(const JointTargetsRefused& refused, Time now) {

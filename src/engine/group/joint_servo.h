@@ -35,6 +35,8 @@ class JointServo final {
   explicit JointServo(const JointRules& rules)
       : rules_(rules), row_(from_s(rules.timeout_s)), loop_(rules) {}
 
+  /// What comes next is sent by somebody else.
+  void change_hands() { row_.change_hands(); }
   /// A command that is sound; whether it is followed is decided by step().
   void take(const JointTarget& target, Time now);
   /// One that was refused, and may have been its: nobody pauses who sends it.

@@ -39,13 +39,17 @@ void Stream::watch_zeros(bool neutral, Time now) {
   last_zero_ = now;
 }
 
-/// Somebody who writes that seldom means one stream, and finds it ended at each message.
+/// Somebody who writes that seldom means one stream, and finds it ended at each message. Behind a
+/// row that was long enough to begin with, a silence is no pace: who comes then may be another.
 void Stream::watch_rate(Time now) {
-  const Duration gap = heard_ == kNever ? Duration{} : now - heard_;
+  const bool begins = heard_ == kNever || now - heard_ > timeout_;
+  if (begins && heard_ != kNever && now - heard_ <= kToldOn &&
+      heard_ - row_since_ < std::max(kRestFirst, timeout_)) {
+    gap_ = now - heard_;
+    gap_at_ = now;
+  }
+  if (begins) row_since_ = now;
   heard_ = now;
-  if (gap <= timeout_ || gap > kToldOn) return;
-  gap_ = gap;
-  gap_at_ = now;
 }
 
 Reason Stream::not_begun(Time now) const {

@@ -65,8 +65,9 @@ class Stream {
   bool may_move_ = false;  ///< it has shown its rest
   Time zeros_since_ = kNever;
   Time last_zero_ = kNever;
-  Time heard_ = kNever;  ///< the last message, whatever became of it
-  Duration gap_{};       ///< between two messages of late that were too far apart for one stream
+  Time heard_ = kNever;      ///< the last message, whatever became of it
+  Time row_since_ = kNever;  ///< of messages that were near enough to each other
+  Duration gap_{};  ///< between two messages of late that were too far apart for one stream
   Time gap_at_ = kNever;
   Time last_ = kNever;
   Time since_ = kNever;

@@ -241,6 +241,31 @@ TEST_F(EngineGroup, TooSlowAStreamIsToldSo) {
   EXPECT_THAT(reason(), HasSubstr("150 ms apart, 100 ms are allowed"));
 }
 
+/// The silence before its first command was the one before it, who was fast enough.
+TEST_F(EngineGroup, ANewProgramIsNotToldHowLongTheLastOneWasSilent) {
+  settle();
+  send_s(2, 0.4);
+  ASSERT_EQ(told().state, GroupState::following);
+  run_s(0.4);
+  send_s(0.2, 0.4);
+  EXPECT_EQ(reason(), "");
+  send_s(0.4, 0.4);
+  EXPECT_EQ(told().state, GroupState::following);
+}
+
+/// Nor that of one who was too slow, and came by another way.
+TEST_F(EngineGroup, ANewProgramOfAnotherWayIsNotToldHowSlowTheLastOneWas) {
+  settle();
+  for (int i = 0; i < 10; ++i) {
+    send(0.3);
+    run_s(0.15);
+  }
+  ASSERT_THAT(reason(), HasSubstr("150 ms apart"));
+  source = RequestId::Source::ros2;
+  send_s(0.1, 0.4);
+  EXPECT_EQ(reason(), "");
+}
+
 TEST_F(EngineGroup, TellsWhoseCommandsItFollows) {
   settle();
   EXPECT_EQ(told().owner, GroupOwner::nobody);

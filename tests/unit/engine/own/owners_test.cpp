@@ -31,6 +31,14 @@ TEST_F(JointCommands, ThatComeTooFarApartForAStreamAreToldHowFar) {
   EXPECT_THAT(reason(), HasSubstr("a stream of joint commands begins with velocity 0"));
   drive_by_joints();
 }
+/// The silence before its first message was the one before it, whose stream was fast enough.
+TEST_F(JointCommands, OfANewProgramAreNotToldHowLongTheLastOneWasSilent) {
+  drive_by_joints();
+  rig.run_s(0.25);
+  stream_s(2, 0.3);
+  EXPECT_THAT(reason(), HasSubstr("a stream of joint commands begins with velocity 0"));
+  EXPECT_THAT(reason(), testing::Not(HasSubstr("apart")));
+}
 TEST_F(JointCommands, ReachTheDrivesThroughTheLimitsOfSpeedAndAcceleration) {
   stream_s(0, 0.5);
   double before = 0;
