@@ -105,7 +105,7 @@ Reason number_problem(const JointCommandEntry& joint, const JointRule& rule) {
   }
   for (const auto& field : fields) {
     if (std::abs(field.value) <= kAbsurd) continue;
-    reason.format("%s %g is absurd", field.name, field.value);
+    reason.format("%s %g is beyond the limit of %g", field.name, field.value, kAbsurd);
     return reason;
   }
   for (const auto& field : fields) {

@@ -82,7 +82,11 @@ Result<JointTargets, Reason> JointCommands::judged(const JointCommandHeard& hear
     if (!groups[i]) continue;
     // Whoever takes joints outside the base over begins where they are, whatever he asks.
     const bool rests = i != 0 || base_rests;
-    if (auto why = groups_[i].writers.hindrance(writer, rests, now); !why.empty()) return why;
+    if (auto why = groups_[i].writers.hindrance(writer, rests, now); !why.empty()) {
+      // A number that cannot be is told as that: it is none of a begin that only has to rest first.
+      const auto numbers = accept_joint_command(message, rules_, wall, 0);
+      return rests || numbers ? why : numbers.error();
+    }
     last_stamp_ns = std::max(last_stamp_ns, groups_[i].last_stamp_ns);
   }
   auto targets = accept_joint_command(message, rules_, wall, last_stamp_ns);

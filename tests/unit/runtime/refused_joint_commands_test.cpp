@@ -125,12 +125,12 @@ const std::vector<Impossible>& impossible() {
       {{{kGood, {"left", kNaN, 1}}}, "joint 'left': position is NaN"},
       {{{kGood, {"mast", 0, 0, kInfinity}}}, "joint 'mast': effort is infinite"},
       // Beyond all limits.
-      {{{{"elbow", 1e6, 0, 0, 40, 1}}}, "joint 'elbow': position 1e+06 is absurd"},
-      {{{{"elbow", 0.5, -1e6, 0, 40, 1}}}, "joint 'elbow': velocity -1e+06 is absurd"},
-      {{{{"elbow", 0.5, 0, 1e300, 40, 1}}}, "joint 'elbow': effort 1e+300 is absurd"},
-      {{{{"elbow", 0.5, 0, 0, 1e9, 1}}}, "joint 'elbow': stiffness 1e+09 is absurd"},
-      {{{{"elbow", 0.5, 0, 0, 40, 2e5}}}, "joint 'elbow': damping 200000 is absurd"},
-      {{{{"right", 0, 2e5}}}, "joint 'right': velocity 200000 is absurd"},
+      {{{{"elbow", 1e6, 0, 0, 40, 1}}}, "joint 'elbow': position 1e+06 is beyond the limit of 100000"},
+      {{{{"elbow", 0.5, -1e6, 0, 40, 1}}}, "joint 'elbow': velocity -1e+06 is beyond the limit of 100000"},
+      {{{{"elbow", 0.5, 0, 1e300, 40, 1}}}, "joint 'elbow': effort 1e+300 is beyond the limit of 100000"},
+      {{{{"elbow", 0.5, 0, 0, 1e9, 1}}}, "joint 'elbow': stiffness 1e+09 is beyond the limit of 100000"},
+      {{{{"elbow", 0.5, 0, 0, 40, 2e5}}}, "joint 'elbow': damping 200000 is beyond the limit of 100000"},
+      {{{{"right", 0, 2e5}}}, "joint 'right': velocity 200000 is beyond the limit of 100000"},
       // Below zero.
       {{{{"elbow", 0.5, 0, 0, -40, 1}}}, "joint 'elbow': stiffness -40 is negative"},
       {{{{"elbow", 0.5, 0, 0, 40, -1}}}, "joint 'elbow': damping -1 is negative"},

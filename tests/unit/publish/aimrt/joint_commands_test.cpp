@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 namespace drover::publish::aimrt {
 namespace {
 
@@ -93,6 +95,20 @@ TEST_F(JointsOfTwoGroups, ThatOneProgramNamesUnlikeOftenAreFollowed) {
     EXPECT_THAT(say("", {left, at("elbow", 0.8)}), IsEmpty()) << i;
     EXPECT_THAT(say("", {at("elbow", 0.8)}), IsEmpty()) << i;
   }
+}
+
+/// Who has to begin with velocity 0 is told first what he can never ask for.
+TEST_F(JointsOfTwoGroups, AreRefusedWhatCannotBeAsThatBeforeANewProgramBegins) {
+  EXPECT_THAT(say("first", {at("left", 0)}), IsEmpty());
+  now_ += 1s;
+  auto left = at("left", 0);
+  left.velocity_radps = 1e6;
+  EXPECT_EQ(say("second", {left}), "joint 'left': velocity 1e+06 is beyond the limit of 100000");
+  left.velocity_radps = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(say("second", {left}), "joint 'left': velocity is NaN");
+  left.velocity_radps = 1;
+  EXPECT_EQ(say("second", {left}), "a stream of joint commands begins with velocity 0");
+  EXPECT_THAT(say("second", {at("left", 0)}), IsEmpty());
 }
 
 /// Wheels that a message does not name come to rest: who names one alone stops the other.
