@@ -4,6 +4,7 @@
 
 #include "drover/fixed_text.h"
 #include "text/control.h"
+#include "text/utf8.h"
 
 namespace drover::scene::words {
 
@@ -15,9 +16,9 @@ std::string number(double value, int decimals) {
 }
 
 std::string quoted(std::string_view name) {
-  FixedText<64> shown(name);
-  std::string out = "\"" + text::harmless(shown.view());
-  out += shown.view().size() < name.size() ? "...\"" : "\"";
+  const std::string_view shown = text::beginning(name, 64);
+  std::string out = "\"" + text::harmless(shown);
+  out += shown.size() < name.size() ? "...\"" : "\"";
   return out;
 }
 

@@ -15,26 +15,63 @@
 
 namespace drover {
 
-TEST(FixedText, IsCutAtACharacterNotInsideOne) {
-  FixedText<4> text("园区");  // two characters of three bytes
-  EXPECT_EQ(text.view(), "园");
+TEST(FixedText, IsCutAtACharacterNotInsideOneAndSaysSo) {
+  FixedText<8> text("园区园");  // characters of three bytes
+  EXPECT_EQ(text.view(), "园…");
+  text = FixedText<8>("园ab园");
+  EXPECT_EQ(text.view(), "园ab园") << "it fits";
+  text = FixedText<8>("园abc园");
+  EXPECT_EQ(text.view(), "园ab…");
+  text = FixedText<8>("123456789");
+  EXPECT_EQ(text.view(), "12345…");
 }
 
 TEST(FixedText, AppendsAsMuchAsFits) {
   FixedText<8> text("abc");
   text.append("de");
   EXPECT_EQ(text, "abcde");
-  text.append("x园");  // the character needs three bytes, and two are left
-  EXPECT_EQ(text, "abcdex");
   text.append("");
+  text.append("fgh");
+  EXPECT_EQ(text, "abcdefgh");
+}
+
+TEST(FixedText, TakesNothingMoreBehindItsCut) {
+  FixedText<8> text("abcdef");
+  text.append("园");  // it needs three bytes, and two are left
+  EXPECT_EQ(text, "abcde…");
+  text.append("");
+  text.append("1");
   text.append("1234");
-  EXPECT_EQ(text, "abcdex12");
+  EXPECT_EQ(text, "abcde…");
+  FixedText<8> shorter("园区");
+  shorter.append("园");
+  EXPECT_EQ(shorter, "园…") << "two bytes are left, and nothing goes into them";
+  shorter.append("a");
+  EXPECT_EQ(shorter, "园…");
+  shorter.assign("a");
+  shorter.append("b");
+  EXPECT_EQ(shorter, "ab");
 }
 
 TEST(FixedText, FormatsWithinItsSize) {
   FixedText<8> text;
-  text.format("%s %d", "abc", 123456);
+  text.format("%s %d", "abc", 1234);
   EXPECT_EQ(text.view(), "abc 1234");
+  text.format("%s %d", "abc", 123456);
+  EXPECT_EQ(text.view(), "abc 1…");
+  text.format("%s", "abcd园区");
+  EXPECT_EQ(text.view(), "abcd…") << "whole characters";
+}
+
+/// In the sentence that an operator reads, however long what it is made of.
+TEST(FixedText, TellsOfAReasonThatItIsCut) {
+  for (std::size_t size = 0; size < 400; ++size) {
+    const std::string all(size, 'x');
+    const Reason reason(all);
+    EXPECT_LE(reason.view().size(), Reason::capacity());
+    EXPECT_EQ(reason.view() == all, size <= Reason::capacity());
+    EXPECT_EQ(reason.view().ends_with("…"), size > Reason::capacity());
+  }
 }
 
 TEST(Angle, CompassNorthIsYawNinetyDegrees) {
