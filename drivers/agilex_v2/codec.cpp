@@ -1,6 +1,7 @@
 #include "drivers/agilex_v2/codec.h"
 
 #include <cmath>
+#include <span>
 
 #include "drivers/thousandths.h"
 #include "drover/bytes.h"
@@ -10,6 +11,30 @@ namespace {
 
 constexpr std::uint8_t kWholeFrame = 8;
 constexpr std::uint8_t kHunterRemote = 2;
+
+struct ErrorBits {
+  unsigned bits;
+  std::string_view text;
+  unsigned hides = 0;  ///< what is less of the same
+};
+// The worst first. Bits that the Scout's manual does not name mean other things on other chassis.
+constexpr ErrorBits kScoutErrors[] = {
+    {0x0100, "battery voltage too low", 0x0200},
+    {0x0200, "battery voltage low"},
+    {0x0400, "its remote control is lost"},
+};
+// Of two documents, one of which names bits that the other does not. What they tell otherwise is
+// told as both have it.
+constexpr ErrorBits kHunterErrors[] = {
+    {0x0001, "battery voltage low"},
+    {0x0038, "one of its motors is not heard"},
+    {0x4100, "a fault of its motor drives"},
+    {0x0404, "its remote control is lost"},
+    {0x0040, "too hot"},
+    {0x0080, "over-current, or its steering's encoder"},
+    {0x1000, "it lost its commands"},
+    {0x0200, "it lost its commands, or its steering's encoder"},
+};
 
 double from_thousandths(const CanFrame& frame, std::size_t at) {
   return load_be<std::int16_t>(frame.payload(), at) * 0.001;
@@ -114,18 +139,18 @@ std::optional<Mode> read_mode_command(const CanFrame& frame) {
   return static_cast<Mode>(frame.data[0]);
 }
 
-std::string_view error_text(std::uint16_t error, Model model) {
-  if (model == Model::hunter) {
-    // In which its two documents agree; what they tell otherwise is shown as a number.
-    if ((error & 0x0001U) != 0) return "battery voltage low";
-    if ((error & 0x0038U) != 0) return "one of its motors is not heard";
-    return {};
+ErrorWords error_words(std::uint16_t error, Model model) {
+  const std::span<const ErrorBits> known = model == Model::hunter
+                                               ? std::span<const ErrorBits>(kHunterErrors)
+                                               : std::span<const ErrorBits>(kScoutErrors);
+  ErrorWords words{{}, error};
+  for (const ErrorBits& each : known) {
+    if ((words.unnamed & each.bits) == 0) continue;
+    words.unnamed &= ~(each.bits | each.hides);
+    if (!words.text.empty()) words.text.append(", ");
+    words.text.append(each.text);
   }
-  // The worst first. Bits that the Scout's manual does not name mean other things on other chassis.
-  if ((error & 0x0100U) != 0) return "battery voltage too low";
-  if ((error & 0x0200U) != 0) return "battery voltage low";
-  if ((error & 0x0400U) != 0) return "its remote control is lost";
-  return {};
+  return words;
 }
 
 }  // namespace drover::agilex_v2

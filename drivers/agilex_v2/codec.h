@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "drover/can_frame.h"
+#include "drover/fixed_text.h"
 #include "drover/twist.h"
 
 namespace drover::agilex_v2 {
@@ -74,7 +75,11 @@ CanFrame mode_command(Mode mode);
 /// Absent: another length, or neither standby nor CAN.
 std::optional<Mode> read_mode_command(const CanFrame& frame);
 
-/// The error word in words; empty: no bit is set in it that this chassis is known to have.
-std::string_view error_text(std::uint16_t error, Model model = Model::scout);
+/// An error word in words, and which of its bits have none.
+struct ErrorWords {
+  Reason text;
+  unsigned unnamed = 0;
+};
+ErrorWords error_words(std::uint16_t error, Model model = Model::scout);
 
 }  // namespace drover::agilex_v2

@@ -56,6 +56,20 @@ BodyMotion rolling(double speed_mps, double radpm) {
           .standing = stands(twist)};
 }
 
+/// Beside a state in which it is well; empty: no error bit is set.
+Reason oddity_of(std::uint16_t error, Model model) {
+  const ErrorWords told = error_words(error, model);
+  if (told.unnamed == 0) return told.text;
+  Reason all;
+  if (told.text.empty()) {
+    all.format("its error word is %04X", error);
+  } else {
+    const std::string_view text = told.text;
+    all.format("%.*s (its error word is %04X)", static_cast<int>(text.size()), text.data(), error);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::span<const FrameFilter> AgilexV2Driver::listens() const {
@@ -141,6 +155,16 @@ AxisState AgilexV2Driver::mode_state() const {
   return wanted && !held_off_ ? AxisState::arming : AxisState::idle;
 }
 
+/// Of one that is well, and does not run; empty: nothing is odd with that.
+std::string_view AgilexV2Driver::why_not_running(AxisState state) const {
+  if (state == AxisState::idle && held_off_)
+    return "the chassis fell back to standby: a new start switches it to CAN again";
+  if (state != AxisState::arming) return {};
+  return state_.mode == Mode::can
+             ? "its brake is locked, and does not come free"
+             : "the chassis stays in standby, though it was asked for CAN mode";
+}
+
 StatusInWords AgilexV2Driver::status(Time now) const {
   StatusInWords status;
   status.axis = axis_;
@@ -155,7 +179,8 @@ StatusInWords AgilexV2Driver::status(Time now) const {
     status.stops_all = true;
     status.reason = "the chassis' emergency stop is pressed";
   } else if (state_.vehicle == Vehicle::exception) {
-    const std::string_view text = error_text(state_.error, model());
+    const ErrorWords told = error_words(state_.error, model());
+    const std::string_view text = told.text;
     status.reason.format("the chassis reports a fault, error %04X%s%.*s", state_.error,
                          text.empty() ? "" : ": ", static_cast<int>(text.size()), text.data());
   } else if (state_.mode == Mode::remote) {
@@ -169,8 +194,7 @@ StatusInWords AgilexV2Driver::status(Time now) const {
     status.reason = foreign_.text();
   } else {
     status.state = mode_state();
-    if (status.state == AxisState::idle && held_off_)
-      status.reason = "the chassis fell back to standby: a new start switches it to CAN again";
+    status.reason = why_not_running(status.state);
   }
   return status;
 }
@@ -189,9 +213,7 @@ SourceHealth AgilexV2Driver::health(Time now) const {
   } else if (!talks(now)) {
     health.reason = silent_text(missing(now), last_state_, now);
   } else {
-    health.reason = error_text(state_.error, model());
-    if (health.reason.empty() && state_.error != 0)
-      health.reason.format("its error word is %04X", state_.error);
+    health.reason = oddity_of(state_.error, model());
   }
   if (ever_heard()) health.state = talks(now) ? SourceState::fresh : SourceState::stale;
   return health;

@@ -160,7 +160,9 @@ void HealthMonitor::look_at_drives(const HealthInput& input) {
     report_.drives_ok = report_.drives_ok && text.empty();
     if (!text.empty() || axis.state != AxisState::running) {
       report_.drives_running = false;
-      if (text.empty()) put(text, joint, "the drive is not in closed loop");
+      // What it says of itself: of a locked brake, of a mode that it stays in.
+      const std::string_view said = axis.fault;
+      if (text.empty()) put(text, joint, said.empty() ? "the drive is not in closed loop" : said);
       if (report_.not_running.empty()) report_.not_running = text;
     }
   }

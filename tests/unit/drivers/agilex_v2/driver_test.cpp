@@ -273,6 +273,31 @@ TEST(AgilexV2, TellsAnErrorOfWhichNoBitIsKnown) {
   bench.driver.on_frame(system_state_frame(state, 0), bench.now, out);
   EXPECT_EQ(bench.driver.health(bench.now).reason, "its error word is 0080");
   EXPECT_EQ(bench.driver.health(bench.now).state, SourceState::fresh);
+  state.error = 0x0780;
+  bench.driver.on_frame(system_state_frame(state, 0), bench.now, out);
+  EXPECT_EQ(bench.driver.health(bench.now).reason,
+            "battery voltage too low, its remote control is lost (its error word is 0780)")
+      << "of a battery's two bits the worse, and of what has no words the number";
+}
+
+/// Why a start comes to nothing.
+TEST(AgilexV2, TellsThatItStaysInStandby) {
+  AgilexV2Driver driver(0, {}, false);
+  Time now{std::chrono::seconds(1)};
+  StatusInWords told;
+  for (int i = 0; i < 100; ++i, now += milliseconds(10)) {
+    DriverOut out;
+    driver.on_frame(system_state_frame({}, 0), now, out);
+    driver.on_frame(motion_frame({}), now, out);
+    const Setpoint wanted{i < 50 ? AxisRequest::rest : AxisRequest::run, 0, {}};
+    driver.on_setpoints({&wanted, 1}, now, out);
+    driver.on_tick(now, out);
+    for (const Measurement& each : out.measurements)
+      if (const auto* value = std::get_if<AxisStatus>(&each.value))
+        told = {*value, driver.words(each)};
+  }
+  EXPECT_EQ(told.state, AxisState::arming);
+  EXPECT_EQ(told.reason, "the chassis stays in standby, though it was asked for CAN mode");
 }
 
 TEST(AgilexV2, NamesAChassisOfTheWrongProtocol) {

@@ -314,7 +314,40 @@ TEST(Hunter, IsNotSentMotionWhileItsBrakeIsStuck) {
   bench.run(milliseconds(1000), kStand);
   bench.run(milliseconds(3000), kDrive, {0.5, 0});
   EXPECT_EQ(bench.status.state, AxisState::arming);
+  EXPECT_EQ(bench.status.reason, "its brake is locked, and does not come free");
   EXPECT_EQ(bench.first_motion(), bench.sent.size());
+  bench.twin.set_fault("", bench.now);
+  bench.run(milliseconds(500), kDrive, {0.5, 0});
+  EXPECT_EQ(bench.status.state, AxisState::running);
+  EXPECT_EQ(bench.status.reason, "");
+}
+
+/// Beside a state in which it is well, and drives on: in words, and what has none as it is. Where
+/// its two documents tell a bit otherwise both are named.
+TEST(Hunter, TellsItsErrorBitsInWords) {
+  AgilexV2Driver driver(0, Steering{});
+  const Time now{std::chrono::seconds(1)};
+  const auto told = [&](unsigned error) {
+    DriverOut out;
+    SystemState state{.vehicle = Vehicle::well, .mode = Mode::can, .battery_V = 26};
+    state.error = static_cast<std::uint16_t>(error);
+    driver.on_frame(system_state_frame(state, 0, Model::hunter), now, out);
+    driver.on_frame(steered_motion_frame({0, 0}), now, out);
+    return std::string(driver.health(now).reason.view());
+  };
+  EXPECT_EQ(told(0), "");
+  EXPECT_EQ(told(0x0001), "battery voltage low");
+  EXPECT_EQ(told(0x0009), "battery voltage low, one of its motors is not heard");
+  EXPECT_EQ(told(0x0038), "one of its motors is not heard");
+  EXPECT_EQ(told(0x0044), "its remote control is lost, too hot");
+  EXPECT_EQ(told(0x0400), "its remote control is lost");
+  EXPECT_EQ(told(0x1000), "it lost its commands");
+  EXPECT_EQ(told(0x0200), "it lost its commands, or its steering's encoder");
+  EXPECT_EQ(told(0x0080), "over-current, or its steering's encoder");
+  EXPECT_EQ(told(0x4100), "a fault of its motor drives");
+  EXPECT_EQ(told(0x0002), "its error word is 0002");
+  EXPECT_EQ(told(0x8001), "battery voltage low (its error word is 8001)");
+  for (unsigned bit = 0; bit < 16; ++bit) EXPECT_NE(told(1U << bit), "") << bit;
 }
 
 /// It asks for the lock, and goes without it: nobody is kept in command by a brake.

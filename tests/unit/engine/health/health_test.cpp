@@ -283,6 +283,14 @@ TEST_F(AHealthMonitor, SeesThatADriveIsNotInClosedLoop) {
   EXPECT_THAT(std::string(update().not_running.view()), HasSubstr("not in closed loop"));
   EXPECT_EQ(first_why(), "") << "idle drives are how a robot rests";
 }
+/// So a start that comes to nothing names a locked brake.
+TEST_F(AHealthMonitor, TellsWhyADriveIsNotInClosedLoopInItsOwnWords) {
+  axes[0].state = AxisState::arming;
+  axes[0].fault = "its brake is locked";
+  EXPECT_EQ(update().not_running, "wheel front_left: its brake is locked");
+  EXPECT_TRUE(update().drives_ok);
+  EXPECT_EQ(first_why(), "") << "it is no fault";
+}
 TEST_F(AHealthMonitor, PutsTheEstopBeforeTheDrivesThatItSilences) {
   axes[0].last_motion = axes[1].last_motion = kNever;
   estimate.predicted_error_m = 5;
