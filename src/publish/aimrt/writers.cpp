@@ -108,13 +108,19 @@ Reason Writers::weigh(const Writer& writer, const JointTargets& targets, Time no
   const bool goes_on = is_owner(writer);
   if (!goes_on || now - heard_ > silence_) before_.fill({});
   // Two that began together count alike: each number comes twice, and not from one program.
-  const bool again = goes_on && writer.sequence == owner_->sequence;
-  if (again && writer.stamp_ns != owner_->stamp_ns) counted_twice_ = now;
+  const bool again = goes_on && writer.sequence != 0 && writer.sequence == owner_->sequence;
+  const bool twice = again && writer.stamp_ns != owner_->stamp_ns;
+  if (twice) counted_twice_ = now;
   const bool told_apart =
       !writer.guid.empty() || (writer.sequence != 0 && now - counted_twice_ > kShownFor);
   if (jumps_to_and_fro(targets) && !told_apart && !oddities_.take(now))
     mixed_until_ = now + kShownFor;
-  if (now >= mixed_until_) return {};
+  if (now >= mixed_until_) {
+    if (!twice || !writer.guid.empty() || oddities_.take(now)) return {};
+    return refuse("two programs seem to write joint commands as " + shown(writer, false) +
+                      ": each sequence_num comes twice, the second is refused",
+                  now);
+  }
   return refuse("two programs seem to write joint commands as " + shown(writer, false) +
                     ": the velocities jump to and fro, none is followed",
                 now);

@@ -134,6 +134,20 @@ TEST_F(TwoPrograms, ThatCountAlikeAreBothRefusedToo) {
   EXPECT_THAT(rivals(), HasSubstr("none is followed"));
 }
 
+/// No velocity jumps; a number that is told twice has one stamp where one program sends it.
+TEST_F(TwoPrograms, ThatCountAlikeAndAskForTheSameAreNoticedByTheirTimeStamps) {
+  std::uint64_t at_ns = 1'000'000'000;
+  std::string second;
+  for (std::uint64_t i = 1; i < 100; ++i, now_ += 20ms, at_ns += 20'000'000) {
+    EXPECT_EQ(give({.stamp_ns = at_ns, .sequence = i}, 1), "") << i;
+    second = give({.stamp_ns = at_ns + 1, .sequence = i}, 1);
+  }
+  EXPECT_EQ(second,
+            "two programs seem to write joint commands as JointCommand (pb): each sequence_num "
+            "comes twice, the second is refused");
+  EXPECT_EQ(rivals(), second);
+}
+
 TEST_F(TwoPrograms, OneOfWhichEndsLeaveTheJointsToTheOtherAfterASecond) {
   for (int i = 0; i < 100; ++i, now_ += 20ms) {
     (void)give(document_, 3);
