@@ -4,6 +4,7 @@ namespace drover::gateway {
 
 void BusState::on_up() {
   condition_ = {};
+  strangers_.clear();
   lost_.clear();
   jammed_since_ = kNever;
 }

@@ -7,6 +7,7 @@
 #include "drover/fixed_text.h"
 #include "drover/time.h"
 #include "gateway/can_condition.h"
+#include "gateway/strangers.h"
 
 namespace drover::gateway {
 
@@ -27,6 +28,7 @@ class BusState final {
   /// In words; empty when all is well.
   Reason trouble(Time now) const;
   std::string_view name() const { return name_; }
+  Strangers& strangers() { return strangers_; }
 
  private:
   bool jammed(Time now) const {
@@ -36,6 +38,7 @@ class BusState final {
   Name name_;
   Duration jammed_after_;
   CanCondition condition_;
+  Strangers strangers_;
   Reason lost_;
   std::uint64_t sent_ = 0;
   std::uint64_t refused_ = 0;

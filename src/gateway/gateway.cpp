@@ -1,5 +1,7 @@
 #include "gateway/gateway.h"
 
+#include <algorithm>
+
 namespace drover::gateway {
 
 namespace {
@@ -220,7 +222,10 @@ void Gateway::look_at_buses(Time now) {
   environment_.bus.clear();
   for (std::size_t bus = 0; bus < buses_.size(); ++bus) {
     const Reason trouble = buses_[bus].trouble(now);
-    if (trouble.empty()) continue;
+    if (trouble.empty()) {
+      look_at_strangers(bus, now);
+      continue;
+    }
     if (environment_.bus.empty()) environment_.bus = trouble;
     const bool cut = buses_[bus].cut(now);
     for (const SlotId id : wiring_.links[bus].slots) {
@@ -229,6 +234,22 @@ void Gateway::look_at_buses(Time now) {
       if (health.state == SourceState::fresh) health.state = SourceState::stale;
       health.reason = trouble;
     }
+  }
+}
+
+/// Who is silent on a bus on which others speak is told of those: they have the right bit rate.
+void Gateway::look_at_strangers(std::size_t bus, Time now) {
+  const auto& on_bus = wiring_.links[bus].slots;
+  const auto is_fresh = [&](SlotId id) {
+    return wiring_.slots[id].health.state == SourceState::fresh;
+  };
+  const bool others = std::any_of(on_bus.begin(), on_bus.end(), is_fresh);
+  for (const SlotId id : on_bus) {
+    SourceHealth& health = wiring_.slots[id].health;
+    if (health.state == SourceState::fresh) continue;
+    const Reason told =
+        buses_[bus].strangers().text(buses_[bus].name(), health.last_good, others, now);
+    if (!told.empty()) health.reason = told;
   }
 }
 

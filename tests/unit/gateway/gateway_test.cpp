@@ -90,6 +90,31 @@ CanFrame bus_off() {
   return frame;
 }
 
+/// Its bus works, and something else hangs on it.
+TEST(Gateway, TellsWhoSpeaksOnABusWhoseDrivesAreSilent) {
+  Bench bench;
+  bench.said = {"141#00", "142#00", "02D#0000000000000000", "02C#"};
+  for (int i = 0; i < 590; ++i) bench.cycle();
+  EXPECT_FALSE(bench.told("frames of other devices"));
+  for (int i = 0; i < 40; ++i) bench.cycle();
+  EXPECT_TRUE(
+      bench.told("silent; frames of other devices come on can0 (0x141, 0x142): are the "
+                 "buses swapped, or its id wrong?"));
+  for (int i = 0; i < 250; ++i) bench.cycle(false);
+  EXPECT_FALSE(bench.told("frames of other devices")) << "they have ceased";
+}
+
+/// One drive is there, and another has an id that nobody is configured for.
+TEST(Gateway, AsksForTheIdOfADriveThatIsSilentBesideOneThatIsHeard) {
+  Bench bench;
+  bench.said = {"021#0000000008000000", "029#0000000000000000", "061#0000000008000000",
+                "069#0000000000000000"};
+  for (int i = 0; i < 700; ++i) bench.cycle();
+  EXPECT_TRUE(
+      bench.told("frames of other devices come on can0 (0x061, 0x069): is its id another "
+                 "one?"));
+}
+
 TEST(Gateway, StopsForABusThatIsOffBeforeItsDrivesAreSilent) {
   Bench bench;
   EXPECT_FALSE(bench.told("wheel left"));
