@@ -108,8 +108,10 @@ void describe(V& v, const GeodeticPoint& point) {
 template <class V>
 void describe(V& v, const AxisSnapshot& it) {
   const auto& [motion, last_motion, joint, group, state, fault, error_code, lapsed, powered,
-               stops_all, commanded_velocity_radps, inverter_degC, motor_degC, bus_V, bus_A, health,
-               source] = it;
+               stops_all, commanded_velocity_radps, stiffness_Nmprad, damping_Nmsprad,
+               inverter_degC, motor_degC, bus_V, bus_A, health, source] = it;
+  (void)stiffness_Nmprad;  // these two recordings do not hold: what the drive is told is in them
+  (void)damping_Nmsprad;
   (void)error_code;  // its words are in the fault
   v.value("joint", joint, {});
   v.value("group", group);  // people are shown its name

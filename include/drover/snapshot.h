@@ -99,6 +99,9 @@ struct AxisSnapshot {
   bool powered = false;          ///< with that fault its power stage is still on
   bool stops_all = false;        ///< that fault is a person's stop of all of the robot
   double commanded_velocity_radps = 0;
+  /// Of a joint that follows an impedance: what its drive is told now. Else absent.
+  double stiffness_Nmprad = kAbsent;
+  double damping_Nmsprad = kAbsent;
   double inverter_degC = kAbsent;
   double motor_degC = kAbsent;
   double bus_V = kAbsent;

@@ -154,6 +154,13 @@ std::size_t column(const std::vector<Node>& rows, const char* key, std::size_t l
   return width;
 }
 
+/// What holds a joint outside the base now, whoever asked for it.
+std::string in_force(const Node& axis) {
+  if (!at(axis, "stiffness_Nmprad").number()) return "";
+  return quantity(at(axis, "stiffness_Nmprad"), "%.4g Nm/rad") + "  " +
+         quantity(at(axis, "damping_Nmsprad"), "%.4g Nms/rad") + "  ";
+}
+
 void show_axes(std::string& out, const Node& status) {
   const auto* axes = at(status, "axes").list();
   if (axes == nullptr) return;
@@ -165,7 +172,7 @@ void show_axes(std::string& out, const Node& status) {
     } else {
       value += padded(text(at(axis, "state")), 9) +
                quantity(at(axis, "velocity_radps"), "%7.2f rad/s") + "  " +
-               quantity(at(axis, "effort_Nm"), "%6.2f Nm") + "  " +
+               quantity(at(axis, "effort_Nm"), "%6.2f Nm") + "  " + in_force(axis) +
                quantity(at(axis, "motor_degC"), "%.0f C") + "  " +
                quantity(at(axis, "bus_V"), "%.1f V") + "  " + text(at(axis, "health"));
       if (!text(at(axis, "fault")).empty()) value += "  " + text(at(axis, "fault"));

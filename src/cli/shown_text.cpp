@@ -14,7 +14,9 @@ namespace drover::cli {
 namespace {
 
 /// Suffix of a value's name, and how people write that unit.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kUnits{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kUnits{{
+    {"_Nmprad", "Nm/rad"},
+    {"_Nmsprad", "Nms/rad"},
     {"_deg", "deg"},
     {"_m", "m"},
     {"_s", "s"},

@@ -65,8 +65,13 @@ void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environ
                    out.axes, out.joint_may_move, events);
     snapshot.groups[i] = groups[i].snapshot();
   }
-  for (std::size_t i = joints_of_base(); i < snapshot.axes.size(); ++i)
-    snapshot.axes[i].commanded_velocity_radps = out.axes[i].velocity_radps;
+  for (std::size_t i = joints_of_base(); i < snapshot.axes.size(); ++i) {
+    const AxisCommand& told = out.axes[i];
+    const bool held = told.request == AxisRequest::run;
+    snapshot.axes[i].commanded_velocity_radps = told.velocity_radps;
+    snapshot.axes[i].stiffness_Nmprad = held ? told.impedance.stiffness_Nmprad : kAbsent;
+    snapshot.axes[i].damping_Nmsprad = held ? told.impedance.damping_Nmsprad : kAbsent;
+  }
 }
 
 }  // namespace drover::engine

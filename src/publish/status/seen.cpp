@@ -19,6 +19,7 @@ void forget_motion(Snapshot& s) {
     axis.motion.velocity_radps = kAbsent;
     axis.motion.effort_Nm = kAbsent;
     axis.commanded_velocity_radps = kAbsent;
+    axis.stiffness_Nmprad = axis.damping_Nmsprad = kAbsent;
   }
   s.base.measured = s.base.commanded = {kAbsent, kAbsent};
   ClearanceSnapshot& free = s.clearance;

@@ -37,6 +37,19 @@ void list(JsonText& out, std::string_view key, const Parts& parts, Time now) {
   out.close(']');
 }
 
+void axes(JsonText& out, const Snapshot& s) {
+  out.key("axes").open('[');
+  for (const AxisSnapshot& axis : s.axes) {
+    ShownJson members(out, s.time);
+    out.open('{');
+    describe(members, axis);
+    members.value("stiffness_Nmprad", axis.stiffness_Nmprad, {});
+    members.value("damping_Nmsprad", axis.damping_Nmsprad, {});
+    out.close('}');
+  }
+  out.close(']');
+}
+
 void pose(JsonText& out, const Snapshot& s) {
   ShownJson members(out, s.time);
   out.key("pose").open('{');
@@ -159,7 +172,7 @@ std::string status_json(const Snapshot& s, const DaemonStatus& daemon) {
   object(out, "battery", s.battery, s.time, s.battery.configured);
   list(out, "sensors", s.sensors, s.time);
   list(out, "scanners", s.scanners, daemon.now);
-  list(out, "axes", s.axes, s.time);
+  axes(out, s);
   list(out, "groups", s.groups, s.time);
   object(out, "base", s.base, s.time, s.base.configured);
   object(out, "clearance", s.clearance, s.time, s.clearance.configured);

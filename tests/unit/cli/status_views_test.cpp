@@ -185,6 +185,23 @@ TEST(StatusInShort, TellsWhoseCommandsAnArmFollows) {
   EXPECT_EQ(*parsed->root.find("groups")->list()->at(1).find("owner")->text(), "nobody");
 }
 
+TEST(StatusInShort, TellsByWhichStiffnessAJointIsHeld) {
+  Snapshot s = full_snapshot();
+  AxisSnapshot elbow = s.axes[0];
+  elbow.joint = "elbow";
+  elbow.stiffness_Nmprad = 60;
+  elbow.damping_Nmsprad = 2.5;
+  ASSERT_TRUE(s.axes.push_back(elbow));
+  const auto status = json::parse(publish::status_json(s, {}))->root;
+  const auto& axes = *status.find("axes")->list();
+  EXPECT_EQ(axes.back().find("stiffness_Nmprad")->number(), 60);
+  EXPECT_EQ(axes.back().find("damping_Nmsprad")->number(), 2.5);
+  EXPECT_FALSE(axes.front().find("stiffness_Nmprad")->number()) << "of a wheel there is none";
+  const std::string shown = show_status(status);
+  EXPECT_NE(shown.find("60 Nm/rad  2.5 Nms/rad"), std::string::npos) << shown;
+  EXPECT_EQ(shown.find("Nm/rad"), shown.rfind("Nm/rad")) << "of the joint alone";
+}
+
 /// Of a robot with an arm: what is of the wheels says so, and what a limit held back is told.
 TEST(StatusInShort, TellsAnArmsCommandsApartFromTheWheels) {
   Snapshot s;

@@ -1,6 +1,8 @@
 // The whole engine with an arm beside its base: each under its own owner, and each stops alone.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "unit/engine/group/engine_group_fixture.h"
 
 namespace drover::engine {
@@ -264,6 +266,19 @@ TEST_F(EngineGroup, ANewProgramOfAnotherWayIsNotToldHowSlowTheLastOneWas) {
   source = RequestId::Source::ros2;
   send_s(0.1, 0.4);
   EXPECT_EQ(reason(), "");
+}
+
+/// What a joint is held by: what was asked for, and its configuration's when nobody asks.
+TEST_F(EngineGroup, TellsWhichStiffnessAndDampingAreInForce) {
+  settle();
+  const AxisSnapshot& shoulder = rig.snapshot().axes[first];
+  EXPECT_TRUE(std::isnan(shoulder.stiffness_Nmprad)) << "it is told nothing yet";
+  EXPECT_TRUE(std::isnan(rig.snapshot().axes[0].stiffness_Nmprad)) << "a wheel";
+  send_s(3, 0.4, 25);
+  EXPECT_EQ(shoulder.stiffness_Nmprad, 25);
+  EXPECT_EQ(shoulder.damping_Nmsprad, 3);
+  run_s(2);
+  EXPECT_EQ(shoulder.stiffness_Nmprad, 60) << "it is held as it is configured";
 }
 
 TEST_F(EngineGroup, TellsWhoseCommandsItFollows) {
