@@ -220,7 +220,7 @@ class CanBench {
   double inertia_kgm2 = 0.4;
   double friction_Nms_per_rad = 0.2;
   bool driver_alive = true;
-  bool held = false;  ///< before its driver began
+  bool held = false;                  ///< before its driver began
   std::set<std::uint32_t> ids;        ///< of what the twin said
   std::optional<std::uint32_t> lost;  ///< of them the one that does not reach the driver
   Time now{std::chrono::seconds(1)};
