@@ -97,6 +97,7 @@ class Bench {
   void cycle(const Setpoint& command) {
     wanted_ = command;
     if (command.request == AxisRequest::run) ++asked_;
+    if (command.request == AxisRequest::idle && heartbeat_ == kNever) held_ = false;
     const CanFrame none;
     call(
         [&](const Made& driver, const CanFrame&, DriverOut& out) {
@@ -159,7 +160,8 @@ class Bench {
       heartbeat_ = now_;
       bool failed = odrive::read_u32(frame, 0) != 0;
       if (!v0_6_) failed = failed || ((frame.data[5] | frame.data[6] | frame.data[7]) & 1U) != 0;
-      closed_loop_ = frame.data[4] == odrive::kStateClosedLoop && !failed;
+      held_ = frame.data[4] == odrive::kStateClosedLoop;
+      closed_loop_ = held_ && !failed;
     } else if (command == odrive::cmd::kEstimates && std::isfinite(odrive::read_float(frame, 0)) &&
                std::isfinite(odrive::read_float(frame, 4))) {
       estimates_ = now_;
@@ -179,8 +181,14 @@ class Bench {
     return false;
   }
 
+  static bool is_zero(const CanFrame& frame) {
+    return (frame.id & 0x1FU) == odrive::cmd::kSetInputVel && !frame.remote &&
+           odrive::read_float(frame, 0) == 0.0F && odrive::read_float(frame, 4) == 0.0F;
+  }
+
   void check_sent(const CanFrame& frame) const {
-    require(allowed(frame) && heartbeat_ != kNever);
+    // What was in closed loop before a new link is told to stand, and nothing else.
+    require(allowed(frame) && (heartbeat_ != kNever || (held_ && is_zero(frame))));
     const FrameEffect effect = driver_.actuator->effect(frame, now_).kind;
     require(effect != FrameEffect::forbidden);
     if (frame.remote) return;
@@ -244,8 +252,9 @@ class Bench {
   Time heartbeat_ = kNever;  ///< since the link came up
   Time estimates_ = kNever;
   bool closed_loop_ = false;  ///< by the last heartbeat, and without an error
-  std::uint64_t own_ = 0;     ///< data frames of the node
-  std::uint64_t asked_ = 0;   ///< set points, each of which may be no number or too large
+  bool held_ = false;  ///< by its last heartbeat, also before a new link; nobody let go of it since
+  std::uint64_t own_ = 0;    ///< data frames of the node
+  std::uint64_t asked_ = 0;  ///< set points, each of which may be no number or too large
 };
 
 }  // namespace drover::fuzz
