@@ -2,7 +2,8 @@
 //
 // It arms only by a new request to run, never by itself: not after a reboot of the drive, a gap in
 // its heartbeat, a fault or a new link. Set points of zero are sent in every state once the node
-// was heard, because they feed the drive's watchdog and a drive that expires coasts.
+// was heard, or where it is known to have held, because they feed the drive's watchdog and a drive
+// that expires coasts.
 #pragma once
 
 #include "drivers/drives.h"
