@@ -126,6 +126,18 @@ TEST_F(ARobotWhoseTurnsNobodyTells, IsProvedThoughItTurnsHalfAsMuchAsItsWheelsSa
   EXPECT_TRUE(rig.out.remembered.mechanics_proved) << rig.why() << ended();
 }
 
+/// Its drives do not make a turn of what they are asked for: nobody knows which way it would go.
+TEST_F(ARobotWhoseTurnsNobodyTells, GoesOnSlowlyWhereItWasNotSeenToTurn) {
+  rig.mechanics.differs = 0;
+  find_its_heading();
+  rig.start(path, 40, 0.5);
+  run_s(50);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << ended();
+  EXPECT_EQ(rig.why(), "slowly: it was not seen to turn to both sides yet");
+  EXPECT_LT(std::abs(rig.plant.truth().vx_mps), 0.06);
+  EXPECT_FALSE(rig.out.remembered.mechanics_proved);
+}
+
 TEST_F(ARobotWhoseTurnsNobodyTells, IsJudgedRightHoweverItsPlacesScatter) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     const bool swapped = seed % 2 == 0;
