@@ -120,8 +120,10 @@ TEST(AimrtJointCommand, RefusesTheWholeMessageAndNamesJointAndField) {
   EXPECT_EQ(refusal(joint_entry("left", 0, 1, 0, kInfinity)),
             "joint 'left': stiffness is infinite");
   EXPECT_EQ(refusal(joint_entry("left", 0, 1, 0, 0, kNaN)), "joint 'left': damping is NaN");
-  EXPECT_EQ(refusal(joint_entry("left", 1e6, 1)), "joint 'left': position 1e+06 is beyond the limit of 100000");
-  EXPECT_EQ(refusal(joint_entry("left", 0, -1e6)), "joint 'left': velocity -1e+06 is beyond the limit of 100000");
+  EXPECT_EQ(refusal(joint_entry("left", 1e6, 1)),
+            "joint 'left': position 1e+06 is beyond the limit of 100000");
+  EXPECT_EQ(refusal(joint_entry("left", 0, -1e6)),
+            "joint 'left': velocity -1e+06 is beyond the limit of 100000");
   EXPECT_EQ(refusal(joint_entry("left", 0, 1, 0, -1)),
             "joint 'left': stiffness is -1, but this drive follows velocity only: 0");
   EXPECT_EQ(refusal(joint_entry("left", 0, 1, 2.5)),
