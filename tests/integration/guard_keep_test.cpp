@@ -180,9 +180,9 @@ TEST_F(GuardKeeps, TheWayToALinkThatWasAbsentSince) {
   again.push_back(absent_link("can1", {0x2D}));
   again.push_back(absent_link("can2", {0x2D}));
   hand_over(std::move(again));
-  EXPECT_TRUE(client().borrow("can0"));
-  EXPECT_TRUE(client().borrow("can1"));
-  EXPECT_FALSE(client().borrow("can2"));
+  EXPECT_TRUE(borrow("can0"));
+  EXPECT_TRUE(borrow("can1"));
+  EXPECT_FALSE(borrow("can2"));
   EXPECT_EQ(shared().set_refused, 0U);
   EXPECT_TRUE(is_stopped("can1"));
 }

@@ -83,7 +83,7 @@ class GuardOnATty : public GuardRig {
   }
   void take(std::vector<runtime::GuardedLink> links) {
     hand_over(std::move(links));
-    EXPECT_FALSE(client().borrow("nothing")) << "an answer: all has arrived";
+    EXPECT_FALSE(borrow("nothing")) << "an answer: all has arrived";
   }
   /// A droverd that lives, until it goes out of scope.
   std::jthread beating() {
@@ -168,7 +168,7 @@ TEST_F(GuardOnATty, LeavesItAlsoWhenTheOfferedSetIsRefused) {
   other[0].kind = GuardLinkKind::tty;
   other[0].descriptor = link::UniqueFd(::fcntl(line().get(), F_DUPFD_CLOEXEC, 0));
   ASSERT_TRUE(hand_over(std::move(other)));
-  EXPECT_FALSE(client().borrow("nothing"));
+  EXPECT_FALSE(borrow("nothing"));
   ASSERT_EQ(shared().set_refused, 1U);
   write_much();
   supply();
@@ -268,7 +268,7 @@ TEST_F(GuardOnATty, LendsTheLineToTheNextDroverd) {
   line().reset();
   new_daemon();
   hand_over({});
-  auto lent = client().borrow("motors");
+  auto lent = borrow("motors");
   ASSERT_TRUE(lent);
   EXPECT_TRUE(::isatty(lent.get()));
   EXPECT_EQ(::write(lent.get(), "x", 1), 1);
@@ -279,7 +279,7 @@ TEST_F(GuardOnATty, LetsGoOfALineWhenAskedSoThatItCanBeOpenedAnew) {
   line().reset();
   EXPECT_TRUE(is_open());
   ASSERT_TRUE(client().let_go("motors"));
-  EXPECT_FALSE(client().borrow("motors"));
+  EXPECT_FALSE(borrow("motors"));
   EXPECT_FALSE(is_open());
 }
 
@@ -290,7 +290,7 @@ TEST_F(GuardOnATty, LetsGoOfALineOfASetThatItRefused) {
   line().reset();
   EXPECT_TRUE(is_open());
   ASSERT_TRUE(client().let_go("motors"));
-  EXPECT_FALSE(client().borrow("motors"));
+  EXPECT_FALSE(borrow("motors"));
   EXPECT_FALSE(is_open());
 }
 
@@ -301,7 +301,7 @@ TEST_F(GuardOnATty, ClosesALineThatHungUp) {
   new_daemon();
   hand_over({});
   hang_up();
-  EXPECT_TRUE(wait_until([this] { return !client().borrow("motors"); }));
+  EXPECT_TRUE(wait_until([this] { return !borrow("motors"); }));
 }
 
 }  // namespace drover::test

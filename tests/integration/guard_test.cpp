@@ -184,7 +184,7 @@ TEST_F(Guard, ALinkThatNeverWasThereIsToldAndHindersNobody) {
   links.push_back(can_link("can0", {0x2D}));
   links.push_back(absent_link("can1", {0x4D, 0x6D}));
   hand_over(std::move(links));
-  EXPECT_FALSE(client().borrow("can1"));
+  EXPECT_FALSE(borrow("can1"));
   EXPECT_TRUE(wait_until([this] {
     return output().find("can1 is not there and never was") != std::string::npos;
   })) << output();
@@ -210,7 +210,7 @@ TEST_F(Guard, SaysThatItRefusedASetBeforeItAnswersAnythingElse) {
   for (int i = 0; i < 20; ++i) {
     new_daemon();
     hand_over_one_drive();
-    ASSERT_TRUE(client().borrow("can0"));
+    ASSERT_TRUE(borrow("can0"));
     EXPECT_EQ(shared().set_refused, 1U) << i;
   }
 }
@@ -225,7 +225,7 @@ TEST_F(Guard, HearsANewDaemonBeforeItHasReadTheLastWordsOfTheOld) {
   new_daemon();
   hand_over_one_drive();
   ASSERT_EQ(::kill(pid(), SIGCONT), 0);
-  EXPECT_TRUE(client().borrow("can0"));
+  EXPECT_TRUE(borrow("can0"));
   EXPECT_EQ(shared().set_refused, 1U) << "the old one's set counts, though he is gone";
 }
 
@@ -436,7 +436,7 @@ TEST_F(Guard, TheRelaysLineFallsWhenTheLastOfBothIsGone) {
   };
   hand_over_one_drive();
   ASSERT_TRUE(client().give_relay_line("gpio17", line[1]));
-  EXPECT_FALSE(client().borrow("gpio16")) << "an answer, so that the line has arrived";
+  EXPECT_FALSE(borrow("gpio16")) << "an answer, so that the line has arrived";
   ::close(line[1]);
   daemon_dies_after(20ms);
   ASSERT_TRUE(is_stopped("can0", 0x2D));
@@ -444,7 +444,7 @@ TEST_F(Guard, TheRelaysLineFallsWhenTheLastOfBothIsGone) {
 
   new_daemon();
   hand_over({});
-  auto lent = client().borrow("gpio17");
+  auto lent = borrow("gpio17");
   EXPECT_TRUE(lent);
   for (const auto& one : manager.kept()) EXPECT_THAT(one.name, Not(HasSubstr("gpio")));
   kill();
@@ -472,7 +472,7 @@ TEST_F(Guard, TheRelaysLineFallsWhereADriveThatRunsOnIsNotReached) {
     links.back().axes[0].runs_on = runs_on;
     hand_over(std::move(links));
     ASSERT_TRUE(client().give_relay_line("gpio17", line[1]));
-    EXPECT_FALSE(client().borrow("gpio16")) << "an answer, so that the line has arrived";
+    EXPECT_FALSE(borrow("gpio16")) << "an answer, so that the line has arrived";
     ::close(line[1]);
     daemon_dies_after(20ms);
     ASSERT_TRUE(wait_until([&] { return shared().unsent > 50; })) << "can0 is full";
