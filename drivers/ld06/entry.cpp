@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "drivers/checked_options.h"
 #include "drivers/ld06/driver.h"
 #include "drivers/ld06/settings.h"
 #include "drivers/ld06/twin.h"
@@ -17,8 +16,7 @@ Made make(const Options& options, const MakeContext&) {
   return make_device<Ld06Driver>(options);
 }
 std::unique_ptr<ScannerTwin> make_twin(const Options& options, std::uint64_t seed) {
-  return std::make_unique<Ld06Twin>(CheckedOptions(options, option_table()).flag("upside_down"),
-                                    seed);
+  return std::make_unique<Ld06Twin>(options.flag("upside_down"), seed);
 }
 
 constexpr std::string_view kLd06Products[] = {"ld19", "d300", "ldrobot"};
