@@ -76,7 +76,9 @@ class GuardRig : public testing::Test {
   bool hand_over_one_drive();
   runtime::GuardClient& client() { return *client_; }
   /// However late its answer is.
-  link::UniqueFd borrow(const std::string& name) { return client_->borrow(name, [] {}); }
+  link::UniqueFd borrow(const std::string& name) {
+    return client_->borrow(name, [] {});
+  }
   GuardShared& shared() { return memory_->shared(); }
   /// droverd is started again: other memory, another connection.
   void new_daemon();

@@ -107,8 +107,7 @@ Reason JointTrust::look_at_sign(const JointMeasured& measured, double wanted_Nm,
   Reason why;
   if (against_rad_ > kAgainst_rad && speed_radps > kFaster * began_radps_)
     why.format(
-        "it turns by %.1f rad/s against %.1f Nm, ever faster: its drive turns the wrong way, or "
-        "it is pushed",
+        "it turns by %.1f rad/s against %.1f Nm: its drive turns the wrong way, or it is pushed",
         measured.velocity_radps, gives_Nm);
   return why;
 }

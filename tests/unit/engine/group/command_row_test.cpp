@@ -46,13 +46,28 @@ TEST(CommandRow, IsSteadyNoSoonerThanItsTimeOut) {
 
 TEST(CommandRow, TellsTheGapThatMadeItBeginAnew) {
   CommandRow row(100ms);
-  const Time last = send(row, kBegin, 400ms);
+  const Time last = send(row, kBegin, 200ms);
   EXPECT_EQ(row.gap(), Duration{});
   row.take({}, last + 150ms);
   EXPECT_EQ(row.gap(), Duration(150ms));
   EXPECT_FALSE(row.is_steady(last + 150ms));
   row.take({}, last + 1150ms);
   EXPECT_EQ(row.gap(), Duration{}) << "a second is a pause, and no gap";
+}
+
+TEST(CommandRow, TellsNoGapBehindARowThatWasSteadyNorBeforeAnothersFirst) {
+  CommandRow row(100ms);
+  const Time steady = send(row, kBegin, 400ms);
+  row.take({}, steady + 150ms);
+  EXPECT_EQ(row.gap(), Duration{}) << "it paused: that is not its pace";
+  row.take({}, steady + 300ms);
+  EXPECT_EQ(row.gap(), Duration(150ms));
+  row.change_hands();
+  EXPECT_EQ(row.gap(), Duration{});
+  row.take({}, steady + 450ms);
+  EXPECT_EQ(row.gap(), Duration{}) << "the other's silence";
+  row.take({}, steady + 600ms);
+  EXPECT_EQ(row.gap(), Duration(150ms));
 }
 
 TEST(CommandRow, ThatWasStoppedIsFollowedAfterAPauseAlone) {
