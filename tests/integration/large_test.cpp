@@ -137,12 +137,12 @@ TEST_F(Large, StartsAndCancelsThatComeAtOnceAreAnsweredInTheirOrder) {
 }
 
 TEST_F(Large, AStartThatComesRightAfterACancelIsNotEndedByIt) {
-  ASSERT_NO_FATAL_FAILURE(start_all());
-  save_track("row", 8);
+  ASSERT_NO_FATAL_FAILURE(start_new());
+  save_track("row", 3);
   wait_until_believed();
   for (int i = 0; i < 12; ++i) {
     control(R"({"cmd_type":"task_control","cmd":"cancel_task"})");
-    start_task("row", 17);
+    start_task("row", 5);
     ASSERT_TRUE(wait_for_status("NAV_RUN")) << i;
     const double end_s = now_s() + 0.3;
     wait_until([&] { return now_s() > end_s; });

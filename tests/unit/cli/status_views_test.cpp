@@ -1,6 +1,7 @@
 // What droverd writes is what the command line reads: a name that differs shows as "-".
 #include "publish/status/status.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>

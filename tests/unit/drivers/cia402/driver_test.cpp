@@ -1,4 +1,5 @@
 // What is a CiA 402 drive's own, beside what the conformance suite asks of every drive.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "drivers/cia402/driver.h"
