@@ -45,7 +45,7 @@ class AgilexV2Driver final : public Device, public FrameFace, public Actuator {
   std::string_view missing(Time now) const;
   StatusInWords status(Time now) const;
   AxisState mode_state() const;
-  std::string_view why_not_running(AxisState state) const;
+  std::string_view why_not_running(AxisState state, Time now) const;
   Model model() const { return steering_ ? Model::hunter : Model::scout; }
   std::optional<Twist> read_twist(const CanFrame& frame) const;
   void hear_state(const SystemState& state, Time received, DriverOut& out);

@@ -14,6 +14,8 @@ constexpr Duration kMotionStale = milliseconds(100);
 /// It comes each 100 ms.
 constexpr Duration kStateStale = milliseconds(350);
 constexpr Duration kV1Remembered = std::chrono::seconds(1);
+/// A chassis that is well is in CAN mode by then, and its brake free.
+constexpr Duration kStarts = std::chrono::seconds(1);
 
 /// A skid-steered base slips: of its speed a few per cent, of its turning much more.
 constexpr double kLeastSigma_mps = 0.02;
@@ -156,10 +158,10 @@ AxisState AgilexV2Driver::mode_state() const {
 }
 
 /// Of one that is well, and does not run; empty: nothing is odd with that.
-std::string_view AgilexV2Driver::why_not_running(AxisState state) const {
+std::string_view AgilexV2Driver::why_not_running(AxisState state, Time now) const {
   if (state == AxisState::idle && held_off_)
     return "the chassis fell back to standby: a new start switches it to CAN again";
-  if (state != AxisState::arming) return {};
+  if (state != AxisState::arming || now - asked_since_ < kStarts) return {};
   return state_.mode == Mode::can
              ? "its brake is locked, and does not come free"
              : "the chassis stays in standby, though it was asked for CAN mode";
@@ -194,7 +196,7 @@ StatusInWords AgilexV2Driver::status(Time now) const {
     status.reason = foreign_.text();
   } else {
     status.state = mode_state();
-    status.reason = why_not_running(status.state);
+    status.reason = why_not_running(status.state, now);
   }
   return status;
 }

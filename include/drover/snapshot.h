@@ -99,7 +99,7 @@ struct AxisSnapshot {
   bool powered = false;          ///< with that fault its power stage is still on
   bool stops_all = false;        ///< that fault is a person's stop of all of the robot
   double commanded_velocity_radps = 0;
-  /// Of a joint that follows an impedance: what its drive is told now. Else absent.
+  /// Of a joint that follows an impedance: what its drive is asked to run with now. Else absent.
   double stiffness_Nmprad = kAbsent;
   double damping_Nmsprad = kAbsent;
   double inverter_degC = kAbsent;

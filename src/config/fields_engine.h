@@ -205,7 +205,8 @@ void visit(V& v, engine::NavigateConfig& c) {
            "longest way that is driven to find the heading");
   v.number("first_way_m", c.first_way_m, Range{0, 2},
            "after a boot or a changed configuration driven at 0.05 m/s with 5 degrees of turn to "
-           "each side, to see whether wheels, gyro and receiver agree; 0: not");
+           "each side (one antenna and no gyro: 12, and as far again until its places show them), "
+           "to see whether wheels, gyro and receiver agree; 0: not");
   v.number("arrival_timeout_s", c.arrival_timeout_s, Range{1, 600},
            "creeping near the goal for longer: the task fails");
 }

@@ -237,7 +237,8 @@ void Gateway::look_at_buses(Time now) {
   }
 }
 
-/// Who is silent on a bus on which others speak is told of those: they have the right bit rate.
+/// Who is silent on a bus on which others speak is told of those: they have the right bit rate. Of
+/// whom anything is heard its driver knows more.
 void Gateway::look_at_strangers(std::size_t bus, Time now) {
   const auto& on_bus = wiring_.links[bus].slots;
   const auto is_fresh = [&](SlotId id) {
@@ -245,10 +246,11 @@ void Gateway::look_at_strangers(std::size_t bus, Time now) {
   };
   const bool others = std::any_of(on_bus.begin(), on_bus.end(), is_fresh);
   for (const SlotId id : on_bus) {
-    SourceHealth& health = wiring_.slots[id].health;
+    Slot& slot = wiring_.slots[id];
+    SourceHealth& health = slot.health;
     if (health.state == SourceState::fresh) continue;
-    const Reason told =
-        buses_[bus].strangers().text(buses_[bus].name(), health.last_good, others, now);
+    const Time last = std::max(health.last_good, slot.last_heard);
+    const Reason told = buses_[bus].strangers().text(buses_[bus].name(), last, others, now);
     if (!told.empty()) health.reason = told;
   }
 }

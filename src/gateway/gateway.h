@@ -105,7 +105,6 @@ class Gateway final {
   void on(const Suspended& slept, Time now);
   void on(const HeldUp& held_up, Time now);
   void notice_foreign(const Slot& slot, const CanFrame& frame, Time received);
-  void notice_stranger(LinkId bus, const CanFrame& frame, Time received);
   bool is_bus(std::size_t link) const { return link < buses_.size(); }
   bool is_line_of_bytes(std::size_t link) const {
     return link < wiring_.links.size() && wiring_.links[link].wire == Wire::bytes;

@@ -19,26 +19,15 @@ std::span<const SlotId> Gateway::slots_on(LinkId link) const {
   listeners_[bus].each(frame, [&, &frame = frame](Listener listener) {
     heard_by_one = true;
     Slot& slot = wiring_.slots[listener.slot];
-    if (listener.sends) notice_foreign(slot, frame, received);
+    if (listener.sends)
+      notice_foreign(slot, frame, received);
+    else
+      slot.last_heard = received;
     slot.made.frames->on_frame(frame, received, scratch_);
     take(slot, received);
   });
-  if (!heard_by_one) notice_stranger(bus, frame, received);
-}
-
-/// What may be told to a device of the bus is the guard's, or another gateway's.
-void Gateway::notice_stranger(LinkId bus, const CanFrame& frame, Time received) {
-  Strangers& strangers = buses_[bus].strangers();
-  const auto is_told = [&](SlotId id) {
-    const Actuator* const moves = wiring_.slots[id].made.actuator;
-    if (moves == nullptr) return false;
-    const auto rules = moves->rules();
-    return std::any_of(rules.begin(), rules.end(),
-                       [&](const FrameRule& rule) { return engine::matches(rule, frame); });
-  };
-  const auto slots = slots_on(bus);
-  if (!strangers.knows(frame) && std::any_of(slots.begin(), slots.end(), is_told)) return;
-  strangers.on_frame(frame, received);
+  // What commands one of its devices is listened to as well: the guard is no stranger.
+  if (!heard_by_one) buses_[bus].strangers().on_frame(frame, received);
 }
 
 /// A link does not hear what it sent itself. What moves, the driver notices.

@@ -41,6 +41,7 @@ struct Slot {
   bool takes_twist = false;  ///< its one channel is the base
   bool of_base = true;       ///< of what moves something: the base, or else an arm, a mast
   SourceHealth health;       ///< as of the last cycle
+  Time last_heard = kNever;  ///< on a bus: any frame of its device, understood or not
   /// Where the engine looks for it.
   FixedVector<SourceHealth*, kMaxChannels> tells_health;
   std::size_t place = 0;  ///< in the configuration's table

@@ -33,10 +33,10 @@ void Strangers::clear() {
   since_ = last_ = kNever;
 }
 
-Reason Strangers::text(std::string_view bus, Time last_good, bool others_heard, Time now) const {
+Reason Strangers::text(std::string_view bus, Time last_heard, bool others_heard, Time now) const {
   if (since_ == kNever || now - since_ < kSilent || now - last_ > kSpeaks) return {};
-  const bool never = last_good == kNever;
-  if (!never && now - last_good < kSilent) return {};
+  const bool never = last_heard == kNever;
+  if (!never && now - last_heard < kSilent) return {};
   Name ids;
   constexpr std::size_t kShown = 3;
   for (std::size_t i = 0; i < std::min(ids_.size(), kShown); ++i) {
@@ -45,7 +45,7 @@ Reason Strangers::text(std::string_view bus, Time last_good, bool others_heard, 
               static_cast<unsigned>(ids_[i].id));
     ids.append(id);
   }
-  if (ids_.size() > kShown) ids.append(", ...");
+  if (ids_.size() > kShown) ids.append(", …");
   Reason text;
   text.format("%s; frames of other devices come on %.*s (%.*s): %s",
               never ? "never heard" : "silent", static_cast<int>(bus.size()), bus.data(),

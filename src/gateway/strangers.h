@@ -15,20 +15,21 @@ namespace drover::gateway {
 /// is told stands still while nothing changes.
 class Strangers final {
  public:
-  /// It was heard already, or nothing more is kept.
-  bool knows(const CanFrame& frame) const;
   void on_frame(const CanFrame& frame, Time received);
   void clear();
 
-  /// Instead of a device that said nothing since `last_good`; kNever: it never did. `others_heard`:
+  /// Instead of a device that said nothing since `last_heard`; kNever: it never did. `others_heard`:
   /// another device of the bus is. Empty: it is not silent for long enough, or nobody else speaks.
-  Reason text(std::string_view bus, Time last_good, bool others_heard, Time now) const;
+  Reason text(std::string_view bus, Time last_heard, bool others_heard, Time now) const;
 
  private:
   struct Id {
     std::uint32_t id = 0;
     bool extended = false;
   };
+  /// It was heard already, or nothing more is kept.
+  bool knows(const CanFrame& frame) const;
+
   FixedVector<Id, 4> ids_;
   Time since_ = kNever;
   Time last_ = kNever;

@@ -97,11 +97,13 @@ TEST(MecanumLoose, IsToldAndStopsTheRobot) {
   figure("told after", error.time - loose);
   const auto from = log.truth_at(loose);
   const auto to = log.truth_at(error.time);
-  figure("way", std::hypot(to.x_m - from.x_m, to.y_m - from.y_m), "m");
+  const double way_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  figure("way", way_m, "m");
+  EXPECT_LT(way_m, 2.5);
   EXPECT_LT(error.time - loose, 15s);
   EXPECT_THAT(error.why, testing::HasSubstr("wheel front_right: motor 2 (202) turns as if nothing "
                                             "hung on it, whatever the others carry"));
-  EXPECT_THAT(log.moving(error.time + 2s, Time::max()), testing::IsEmpty());
+  EXPECT_THAT(log.moving(error.time + 1s, Time::max()), testing::IsEmpty());
 }
 
 /// How long a motor was asked for a current and told that it has none, at the longest.

@@ -130,6 +130,7 @@ TEST(MecanumUnplugKill, IsStoppedByTheRelayThatTheGuardOpens) {
   const Time end = log.truth.back().time - 10ms;
   tell_way_to_rest(log, killed, end);
   const Roll rolled = roll(log, killed, end);
+  EXPECT_FALSE(log.changes("enable_relay", killed, end).empty());
   // A droverd that lives opens it no sooner: 1.2 to 1.3 m.
   EXPECT_LT(rolled.way_m, 1.2);
   EXPECT_LT(rolled.rest - killed, 3200ms);

@@ -59,16 +59,17 @@ void JointGroup::take(const JointTargets& targets, RequestId::Source source, Tim
     return;
   }
   const auto sender = source == RequestId::Source::ros2 ? GroupOwner::ros2 : GroupOwner::broker;
-  bool mine = false;
-  for (const JointTarget& target : targets.joints) {
-    for (JointServo& joint : joints_) {
-      if (joint.rules().axis != target.axis) continue;
-      if (sender != sender_) joint.change_hands();
-      joint.take(target, now);
-      mine = true;
-    }
+  const auto is_mine = [&](const JointTarget& target) {
+    return std::any_of(joints_.begin(), joints_.end(),
+                       [&](const JointServo& joint) { return joint.rules().axis == target.axis; });
+  };
+  if (std::none_of(targets.joints.begin(), targets.joints.end(), is_mine)) return;
+  for (JointServo& joint : joints_) {
+    // Of all of them: he may name them in turn.
+    if (sender != sender_) joint.change_hands();
+    for (const JointTarget& target : targets.joints)
+      if (joint.rules().axis == target.axis) joint.take(target, now);
   }
-  if (!mine) return;
   // Who names joints in turn pauses for none of them.
   for (JointServo& joint : joints_) joint.overhear(now);
   ++waiting_;

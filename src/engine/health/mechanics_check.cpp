@@ -266,14 +266,12 @@ void MechanicsCheck::compare_place(const Mark& wheels) {
   from.longitude_deg = rest_.east_deg;
   const PathPoint went = ground_way(from, position_);
   const double sigma_m = place_sigma_m(position_, config_.estimate);
-  const PathPoint jumped_before = jumped_;
-  compare_way(went, wheels, sigma_m);
-  const bool jumps_now = jumped_.x_m != jumped_before.x_m || jumped_.y_m != jumped_before.y_m;
-  if (jumps_now || !fault_.empty()) return;
+  if (!compare_way(went, wheels, sigma_m) || !fault_.empty()) return;
   compare_aside({went.x_m - jumped_.x_m, went.y_m - jumped_.y_m}, wheels, sigma_m);
 }
 
-void MechanicsCheck::compare_way(const PathPoint& went, const Mark& wheels, double sigma_m) {
+/// False: the position jumps, and tells nothing of a way.
+bool MechanicsCheck::compare_way(const PathPoint& went, const Mark& wheels, double sigma_m) {
   PathPoint way = went;
   const double turn_rad =
       std::isfinite(heading_turn_rad_) ? heading_turn_rad_ : wheels.wheels.turn_rad;
@@ -291,7 +289,7 @@ void MechanicsCheck::compare_way(const PathPoint& went, const Mark& wheels, doub
     way.x_m -= after.x_m - before.x_m;
     way.y_m -= after.y_m - before.y_m;
   }
-  if (jumps(way, wheels, sigma_m)) return;
+  if (jumps(way, wheels, sigma_m)) return false;
   compared_m_ = wheels.rolled_m;
   way.x_m -= jumped_.x_m;
   way.y_m -= jumped_.y_m;
@@ -306,7 +304,7 @@ void MechanicsCheck::compare_way(const PathPoint& went, const Mark& wheels, doub
       std::abs(rolled_m) > kShortest_m ? std::abs(rolled_m) - kWayRatio * gone_m : 0.0;
   const double odd_m = std::max(too_much_m, too_little_m);
   odd_places_ = odd_m > kWaySigmas * sigma_m ? odd_places_ + 1 : 0;
-  if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma_m)) return;
+  if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma_m)) return true;
   if (back) {
     fault_.format("%s %+.2f m, the receiver went %+.2f m: %s", words_->rolled, rolled_m, ahead_m,
                   words_->wrong_way);
@@ -314,6 +312,7 @@ void MechanicsCheck::compare_way(const PathPoint& went, const Mark& wheels, doub
     fault_.format("%s %.2f m, the receiver went %.2f m: %s", words_->rolled, std::abs(rolled_m),
                   gone_m, too_little_m > too_much_m ? words_->short_way : words_->long_way);
   }
+  return true;
 }
 
 void MechanicsCheck::step(const MechanicsInput& input) {
@@ -340,7 +339,6 @@ void MechanicsCheck::step(const MechanicsInput& input) {
   last_.way_m += input.body.vx_mps * dt_s;
   WheelsWay& wheels = last_.wheels;
   wheels.turn_rad += input.body.wz_radps / config_.base.yaw_slip_factor * dt_s;
-  wheels.ahead_m += input.body.vx_mps * std::cos(wheels.turn_rad) * dt_s;
   wheels.left_m += input.body.vx_mps * std::sin(wheels.turn_rad) * dt_s;
   const bool was_past = past_first_way();
   rolled_m_ += std::abs(input.body.vx_mps) * dt_s;

@@ -105,7 +105,7 @@ class MechanicsCheck final {
   void say_no_swing(bool by_gyro);
   bool shown_by_places() const;
   void compare_place(const Mark& wheels);
-  void compare_way(const PathPoint& went, const Mark& wheels, double sigma_m);
+  bool compare_way(const PathPoint& went, const Mark& wheels, double sigma_m);
   void compare_aside(const PathPoint& went, const Mark& wheels, double sigma_m);
   bool jumps(const PathPoint& way, const Mark& wheels, double sigma_m);
   void say_turn(double by_gyro_rad, double by_wheels_rad);

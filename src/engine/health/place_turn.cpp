@@ -21,7 +21,7 @@ const double kWidest_rad = to_rad(45);
 // other bends the way.
 const double kHeading_rad = to_rad(2.0);
 
-/// How far to the left the antenna went, and by how much it was turned for it.
+/// How far to the left the antenna is, of a base that went so and turned so.
 double antenna_left_m(double left_m, double turn_rad, const AntennaConfig& antenna) {
   return left_m + antenna.x_m * std::sin(turn_rad) + antenna.y_m * (std::cos(turn_rad) - 1);
 }

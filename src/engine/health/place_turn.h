@@ -9,10 +9,9 @@
 
 namespace drover::engine {
 
-/// Since the motion began; ahead and left are those of that moment.
+/// Since the motion began; left is that of that moment.
 struct WheelsWay {
-  double ahead_m = 0;  ///< where the base is
-  double left_m = 0;
+  double left_m = 0;  ///< where the base is
   double turn_rad = 0;
 };
 

@@ -77,7 +77,6 @@ TEST_F(ARobotWhoseTurnsNobodyTells, FindsSwappedSidesByWhereItsReceiverGoes) {
   EXPECT_LT(std::abs(to_deg(rig.plant.truth().yaw_rad)), 15);
 }
 
-/// A turn alone does not move it.
 /// The places of the moment before it are where that way begins.
 TEST_F(ARobotWhoseTurnsNobodyTells, FindsThemOnATaskThatBeginsAsSoonAsTheHeadingIsFound) {
   rig.mechanics.swapped = true;
@@ -92,6 +91,7 @@ TEST_F(ARobotWhoseTurnsNobodyTells, FindsThemOnATaskThatBeginsAsSoonAsTheHeading
   }
 }
 
+/// A turn alone does not move it.
 TEST_F(ARobotWhoseTurnsNobodyTells, FindsThemWithAnAntennaOverItsMiddle) {
   build(0);
   rig.mechanics.swapped = true;

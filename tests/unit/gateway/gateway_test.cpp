@@ -115,6 +115,14 @@ TEST(Gateway, AsksForTheIdOfADriveThatIsSilentBesideOneThatIsHeard) {
                  "one?"));
 }
 
+/// They are there, and what is wrong with them their driver knows.
+TEST(Gateway, TellsOfNoStrangersInsteadOfADriveThatSaysTooLittle) {
+  Bench bench;
+  bench.said = {"021#0000000008000000", "041#0000000008000000", "141#00"};
+  for (int i = 0; i < 700; ++i) bench.cycle();
+  EXPECT_FALSE(bench.told("frames of other devices"));
+}
+
 TEST(Gateway, StopsForABusThatIsOffBeforeItsDrivesAreSilent) {
   Bench bench;
   EXPECT_FALSE(bench.told("wheel left"));
@@ -320,7 +328,8 @@ TEST(Gateway, TellsTheGuardHowEachDriveOfABusIsStopped) {
   EXPECT_EQ(recipes[1].recipe.rounds[0].frames[0].id, 0x04DU);
   EXPECT_EQ(recipes[1].recipe.period, 10ms);
   EXPECT_FALSE(recipes[0].held_by_daemon);
-  EXPECT_FALSE(recipes[0].runs_on) << "their time-out stops them";
+  EXPECT_FALSE(recipes[0].runs_on) << "its watchdog stops it";
+  EXPECT_TRUE(recipes[1].runs_on) << "it has none";
 }
 
 TEST(StreamOutput, TakesAPacketWholeOrNotAtAll) {

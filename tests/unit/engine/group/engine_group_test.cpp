@@ -268,6 +268,23 @@ TEST_F(EngineGroup, ANewProgramOfAnotherWayIsNotToldHowSlowTheLastOneWas) {
   EXPECT_EQ(reason(), "");
 }
 
+/// It is of all its joints that somebody else sends now, though he names them in turn.
+TEST_F(EngineGroup, ANewProgramOfAnotherWayIsNotToldThatOfAJointThatItNamesSecond) {
+  settle();
+  for (int i = 0; i < 10; ++i) {
+    send(0.3);
+    run_s(0.15);
+  }
+  ASSERT_THAT(reason(), HasSubstr("150 ms apart"));
+  source = RequestId::Source::ros2;
+  JointTargets other;
+  (void)other.joints.push_back({static_cast<AxisId>(first + 1), 0, 0.3, 0, 60, 3});
+  rig.command(other, source);
+  tick();
+  send_s(0.1, 0.4);
+  EXPECT_EQ(reason(), "");
+}
+
 /// What a joint is held by: what was asked for, and its configuration's when nobody asks.
 TEST_F(EngineGroup, TellsWhichStiffnessAndDampingAreInForce) {
   settle();
