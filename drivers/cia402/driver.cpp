@@ -17,6 +17,8 @@ constexpr Duration kSettle = milliseconds(20);
 constexpr Duration kClearTime = milliseconds(250);
 constexpr double kSlow_radps = 0.1;
 constexpr Duration kIdleAtLast = milliseconds(1000);
+/// Nobody says that it heard it: so long it is told.
+constexpr Duration kToldOff = milliseconds(300);
 constexpr int kFeedsInSilence = 4;
 
 /// NMT, the gateway's own heartbeat, and all function codes that its node has, but neither 0x000 +
@@ -107,10 +109,17 @@ void Cia402Driver::begin_setup(Time now) {
 /// would follow its last target for ever. What a person lets go of is told that, and is not enabled
 /// again.
 void Cia402Driver::feed_blindly(Time now, DriverOut& out) {
+  // Told so, it may run though nobody heard that it does.
+  may_hold_ = may_hold_ || command_.controlword == canopen::kEnableOperation;
+  was_held_ = was_held_ || held_;
   if (request_ == AxisRequest::idle && now - phase_since_ > kIdleAtLast) {
-    may_hold_ = held_ = false;
-    if (canopen::is_powered(status_.state())) send({canopen::kDisableVoltage, 0}, now, out);
+    lets_go_ = lets_go_ || may_hold_ || was_held_ || canopen::is_powered(status_.state());
+    may_hold_ = was_held_ = held_ = false;
+    if (lets_go_ && now - phase_since_ <= kIdleAtLast + kToldOff)
+      send({canopen::kDisableVoltage, 0}, now, out);
+    return;
   }
+  lets_go_ = false;
   if (may_hold_ || held_) send({canopen::kEnableOperation, 0}, now, out);
 }
 

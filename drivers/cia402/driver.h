@@ -103,6 +103,8 @@ class Cia402Driver final : public Device, public FrameFace, public Actuator {
   AxisRequest request_ = AxisRequest::rest;
   bool commanded_ = false;  ///< since the last tick
   bool held_ = false;       ///< before this driver began, as it was told
+  bool was_held_ = false;   ///< it was told so, and has not been heard since
+  bool lets_go_ = false;    ///< of what may be on, in silence
   Time phase_since_ = kNever;
   bool fault_ = false;  ///< `lock_reason_` says which
   Reason lock_reason_;

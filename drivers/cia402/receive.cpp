@@ -100,7 +100,7 @@ void Cia402Driver::on_heartbeat(canopen::NodeState state, Time received) {
   heard_.last_alive = received;
   const bool booted = state == canopen::NodeState::boot_up;
   if (booted && attempts_to_run()) lock("the drive was restarted while armed");
-  if (booted) may_hold_ = held_ = false;
+  if (booted) may_hold_ = was_held_ = held_ = false;
   if (booted || link_ == Link::silent) return begin_setup(received);
   const bool operational = state == canopen::NodeState::operational;
   if (link_ == Link::starting && operational) link_ = Link::ready;
@@ -114,7 +114,8 @@ void Cia402Driver::on_heartbeat(canopen::NodeState state, Time received) {
 void Cia402Driver::on_status(const Status& status, Time received, DriverOut& out) {
   status_ = status;
   last_status_ = received;
-  may_hold_ = canopen::is_powered(status.state()) || attempts_to_run();
+  may_hold_ = status.state() == canopen::DriveState::operation_enabled;
+  was_held_ = false;
   if (link_ == Link::ready) follow_status(received);
   report_status(received, false, out);
   AxisMotion motion;

@@ -186,6 +186,8 @@ void CubemarsDriver::on_link_up(Time now) {
   feedback_ = {};
   talk_.begin();
   if (power_ == Power::on) power_ = Power::unknown;
+  // What was said to nobody, before there was a link, was not said.
+  if (heard_.last_good == kNever) leaving_since_ = kNever;
   if (arms(request_)) lock("the link was lost while armed");
 }
 

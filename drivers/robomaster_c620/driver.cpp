@@ -70,13 +70,19 @@ void RobomasterDriver::lock(const Reason& why) {
   faulty_ = kMotors;
 }
 
+bool RobomasterDriver::is_any_loose() const {
+  bool any = false;
+  for (std::size_t channel = 0; channel < kMotors; ++channel) any = any || loose_.is_loose(channel);
+  return any;
+}
+
 void RobomasterDriver::start_arming(Time now) {
   const Phase phase_before = phase_;
   phase_ = Phase::arming;
   phase_since_ = now;
   lock_reason_.clear();
   for (Motor& motor : motors_) motor.begin_anew();
-  if (phase_before == Phase::locked) loose_.begin_anew();
+  if (phase_before == Phase::locked || is_any_loose()) loose_.begin_anew();
   if (const Reason silent = silence_of_any(settings_.stale_after, now); !silent.empty())
     lock(silent);
 }

@@ -61,6 +61,7 @@ class RobomasterDriver final : public Device, public FrameFace, public Actuator 
   // driver.cpp
   bool attempts_to_run() const { return phase_ == Phase::arming || phase_ == Phase::running; }
   void lock(const Reason& why);
+  bool is_any_loose() const;
   void start_arming(Time now);
   void take(AxisRequest request, Time now);
   void look_at_motors(Time now);

@@ -81,7 +81,10 @@ void Guard::act(Time t) {
   if (!all) whose = StopSet::Whose::daemons;
   if (daemon_holds) whose = StopSet::Whose::not_daemons;
   if (plays) set_.play(t, whose);
-  if (plays && set_.runs_on(t)) cut_supply();
+  // A droverd that lives sees by itself that its drives are not there.
+  const bool alone = daemon_ < 0 || watch_.late(t);
+  if (!holding_) supply_cut_ = false;
+  if (plays && alone && !supply_cut_ && set_.runs_on(t)) cut_supply();
   // Drives that nobody can stop are the hardware watchdog's.
   if (!plays || set_.in_command(t)) pulse();
 }
@@ -128,14 +131,16 @@ void Guard::pulse() {
   pulse_line_ = -1;
 }
 
-/// What nothing reaches, and nothing else stops. A droverd that only hung writes the line anew, and
-/// then it sees by itself that its drives are not there; where it is gone the line falls.
+/// What nothing reaches, and nothing else stops. The line stays the guard's: a droverd that only
+/// hung writes it anew, and it outlives the next one's end as well.
 void Guard::cut_supply() {
+  supply_cut_ = true;
   if (relay_line_ < 0) return;
   gpio_v2_line_values values{};
   values.mask = 1;
-  ::ioctl(relay_line_, GPIO_V2_LINE_SET_VALUES_IOCTL, &values);
-  ::close(std::exchange(relay_line_, -1));
+  // What cannot be written falls when the last who has it lets it go.
+  if (::ioctl(relay_line_, GPIO_V2_LINE_SET_VALUES_IOCTL, &values) != 0)
+    ::close(std::exchange(relay_line_, -1));
   speech_.say("drover-guard: a drive that would run on is not reached: the enable relay is opened");
 }
 

@@ -80,6 +80,7 @@ class Guard final : public StopListener {
   int pulse_line_ = -1;
   bool pulse_high_ = false;
   int relay_line_ = -1;
+  bool supply_cut_ = false;  ///< in this hold
   std::array<char, kGuardNameSize> relay_name_{};
 
   std::uint64_t died_ = 0;  ///< lines, as told

@@ -19,6 +19,8 @@ constexpr std::uint32_t kLongestPeriod_ms = 1000;
 constexpr int kForgivenPeriods = 5;
 /// A line that was full for a moment takes the next round.
 constexpr Duration kRunsOnFor = std::chrono::milliseconds(150);
+/// A line whose other end is gone takes some messages, and keeps them.
+constexpr Duration kTold = std::chrono::seconds(1);
 /// The guard looks each 10 ms: what is due nearer to this look than to the next goes now.
 constexpr Duration kHalfACycle = std::chrono::milliseconds(5);
 
@@ -189,7 +191,8 @@ void StopSet::begin_hold() {
   }
   for (auto& axis : axes_) {
     axis.round = 0;
-    axis.due = axis.missed = kNever;
+    axis.due = axis.missed = axis.taken = kNever;
+    axis.told = false;
   }
 }
 
@@ -215,10 +218,13 @@ void StopSet::play(Time now, Whose whose) {
     }
     if (!taken) {  // the same round again: a counter in it must not jump
       if (axis.missed == kNever) axis.missed = now;
+      axis.taken = kNever;
       continue;
     }
     axis.missed = kNever;
     axis.reached = now;
+    if (axis.taken == kNever) axis.taken = now;
+    axis.told = axis.told || now - axis.taken >= kTold;
     axis.round = (axis.round + 1) % axis.rounds;
   }
 }
@@ -234,7 +240,7 @@ bool StopSet::in_command(Time now) const {
 bool StopSet::runs_on(Time now) const {
   return std::any_of(axes_.begin(), axes_.begin() + static_cast<std::ptrdiff_t>(axis_count_),
                      [now](const Axis& axis) {
-                       return axis.runs_on && axis.missed != kNever &&
+                       return axis.runs_on && !axis.told && axis.missed != kNever &&
                               now - axis.missed >= kRunsOnFor;
                      });
 }

@@ -60,7 +60,8 @@ class StopSet final {
   /// Each axis was reached within its last five periods. True without any axis. What hangs on a
   /// link that never was there does not count: nobody can have moved it.
   bool in_command(Time now) const;
-  /// An axis that nothing but its supply stops was not reached for too long.
+  /// An axis that nothing but its supply stops was not reached for too long. One that was told its
+  /// stop in this hold, for long enough, stands by that: without its supply it would hold no more.
   bool runs_on(Time now) const;
 
   /// Those on a link that is, or once was, there.
@@ -105,6 +106,8 @@ class StopSet final {
     Time due = kNever;
     Time reached = kNever;
     Time missed = kNever;  ///< since then none of its rounds left; kNever: the last one did
+    Time taken = kNever;   ///< since then all of them did, in this hold
+    bool told = false;     ///< and they did for so long that no line only kept them
   };
   struct Message {
     std::uint32_t axis = 0;

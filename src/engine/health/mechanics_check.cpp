@@ -392,6 +392,11 @@ Twist MechanicsCheck::guide(const Twist& wanted) {
   Twist twist = wanted;
   const double cap_mps = speed_cap_mps(FirstWay::hand);
   twist.vx_mps = std::clamp(wanted.vx_mps, -cap_mps, cap_mps);
+  // Nobody saw it turn yet; it is steered again, on the same curve.
+  if (swing_.is_over()) {
+    twist.wz_radps *= std::abs(twist.vx_mps / wanted.vx_mps);
+    return twist;
+  }
   // What was learned of a turn that never came would ask for more and more.
   const double half_m = config_.base.track_m / 2;
   const double most =

@@ -111,6 +111,29 @@ TEST_F(GuardStopSet, TellsOfADriveThatRunsOnWhileNothingReachesIt) {
   }
 }
 
+/// It holds by what it was told, on a slope maybe: without its supply it would roll.
+TEST_F(GuardStopSet, LeavesADriveItsSupplyThatWasToldItsStop) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends.data()), 0);
+  StopSet set;
+  ASSERT_TRUE(set.add_link(named(GuardVerb::link, 0, "can0"), ends[1]));
+  auto wheel = axis(0, "can0 200");
+  wheel.runs_on = 1;
+  ASSERT_TRUE(set.add_axis(wheel) && set.add_message(stop(0, 0, 'w')));
+  set.begin_hold();
+  std::array<char, 64> read{};
+  for (int i = 0; i < 110; ++i) {
+    play(set, kStart + i * 10ms, 1);
+    while (::recv(ends[0], read.data(), read.size(), 0) > 0) continue;
+  }
+  ::close(ends[0]);
+  play(set, kStart + 1100ms, 40);
+  EXPECT_FALSE(set.runs_on(kStart + 1490ms));
+  set.begin_hold();
+  play(set, kStart + 1500ms, 20);
+  EXPECT_TRUE(set.runs_on(kStart + 1690ms)) << "of a new hold it was told nothing";
+}
+
 TEST_F(GuardStopSet, EachAxisHasItsOwnPeriod) {
   StopSet set;
   add_link(set);

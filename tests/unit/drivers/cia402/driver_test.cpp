@@ -255,6 +255,47 @@ TEST(Cia402, IsLetGoInSilenceWhenItIsReleased) {
   EXPECT_EQ(bench.zeros(), 0) << "it is to hold nothing any more";
 }
 
+/// Its adapter was plugged in again meanwhile: nothing that it said counts any more.
+TEST(Cia402, IsLetGoInSilenceBehindANewLinkToo) {
+  MuteBench bench;
+  bench.mute();
+  bench.run(milliseconds(1000), kRest);
+  bench.device->on_link_up(bench.now);
+  bench.run(milliseconds(500), kRest);
+  bench.run(milliseconds(1500), AxisRequest::idle);
+  EXPECT_FALSE(bench.shaft.energized);
+}
+
+TEST(Cia402, IsLetGoByADriverThatNeverHeardItToo) {
+  MuteBench before;
+  before.mute();
+  before.run(milliseconds(500), kRest);
+  Bench bench;
+  bench.twin = std::move(before.twin);
+  bench.shafts[0] = before.shafts[0];
+  bench.now = before.now;
+  bench.load_Nm = 4;
+  bench.held = true;
+  bench.device->on_link_up(bench.now);
+  bench.run(milliseconds(1000), kRest);
+  ASSERT_TRUE(bench.shaft.energized);
+  bench.held = false;  // as the gateway says of what a person lets go of
+  bench.run(milliseconds(1500), AxisRequest::idle);
+  EXPECT_FALSE(bench.shaft.energized);
+}
+
+/// What was not enabled yet is not enabled by what holds.
+TEST(Cia402, IsNotArmedToItsEndInSilence) {
+  Bench bench;
+  bench.run(milliseconds(1500), kRest);
+  for (int i = 0; i < 400 && !bench.has_sent("205#070000000000"); ++i) bench.step({kRun, 0});
+  ASSERT_TRUE(bench.has_sent("205#070000000000"));
+  ASSERT_FALSE(bench.has_sent("205#0F0000000000"));
+  ASSERT_TRUE(bench.twin->set_fault("silent", bench.now));
+  bench.run(milliseconds(1500), kRest);
+  EXPECT_FALSE(bench.has_sent("205#0F0000000000"));
+}
+
 TEST(Cia402, IsNotFedInSilenceWhenItHoldsNothing) {
   Bench off;
   off.run(milliseconds(1500), kRest);

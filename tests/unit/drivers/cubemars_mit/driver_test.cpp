@@ -153,6 +153,24 @@ TEST(Cubemars, IsMadeToDampByADriverThatBeginsWhereNobodyElseDoesSo) {
   }
 }
 
+/// Its bus was down when droverd began, or a guard that hangs was waited for.
+TEST(Cubemars, IsMadeToDampOnALinkThatComesLateToo) {
+  CanBench before(subject());
+  arm(before);
+  CanBench bench(subject());
+  bench.now = before.now;
+  bench.twin->set_power(false, bench.now);
+  bench.run(milliseconds(500), AxisRequest::rest);
+  bench.sent.clear();
+  bench.twin = std::move(before.twin);
+  bench.shaft.energized = true;
+  bench.device->on_link_up(bench.now);
+  bench.load_Nm = 1;
+  bench.run(milliseconds(2000), AxisRequest::rest);
+  expect_damped(bench);
+  EXPECT_EQ(count(bench.sent, kLeave), 0);
+}
+
 TEST(Cubemars, IsLetGoThoughItWasNeverHeardWhenThatIsAsked) {
   CanBench bench(subject());
   begin_anew_beside_the_guard(bench, AxisRequest::idle);

@@ -270,6 +270,11 @@ TEST(Robomaster, FindsAWheelThatIsLooseOnItsShaft) {
             "motor 2 (202) turns as if nothing hung on it, whatever the others carry: is its wheel "
             "loose on the shaft, or in the air?");
   EXPECT_NE(bench.statuses[1].error_code, 0U);
+  bench.run(milliseconds(1000), AxisRequest::rest);
+  bench.twin->set_fault("", bench.now);
+  bench.load_Nm = 0.5;
+  bench.run(milliseconds(1000), AxisRequest::run, 3.0);
+  EXPECT_EQ(bench.status.state, AxisState::running) << "mended, and asked anew";
 }
 
 TEST(Robomaster, TakesNoHealthyWheelForALooseOne) {

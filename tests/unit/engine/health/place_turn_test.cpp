@@ -55,7 +55,7 @@ TEST(PlaceTurn, SaysWhichWayItWas) {
   EXPECT_EQ(verdict(0.5, 12, 12), Verdict::right);
   EXPECT_EQ(verdict(0.5, 12, -12), Verdict::against);
   EXPECT_EQ(verdict(0.5, -12, 12), Verdict::against);
-  EXPECT_EQ(verdict(0.5, 12, 4), Verdict::right) << "soil took up most of it";
+  EXPECT_EQ(verdict(0.8, 30, 10), Verdict::right) << "soil took up most of it";
   EXPECT_EQ(verdict(0.8, 12, 0), Verdict::not_at_all);
 }
 
