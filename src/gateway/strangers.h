@@ -18,8 +18,9 @@ class Strangers final {
   void on_frame(const CanFrame& frame, Time received);
   void clear();
 
-  /// Instead of a device that said nothing since `last_heard`; kNever: it never did. `others_heard`:
-  /// another device of the bus is. Empty: it is not silent for long enough, or nobody else speaks.
+  /// Instead of a device that said nothing since `last_heard`; kNever: it never did.
+  /// `others_heard`: another device of the bus is. Empty: it is not silent for long enough, or
+  /// nobody else speaks.
   Reason text(std::string_view bus, Time last_heard, bool others_heard, Time now) const;
 
  private:
