@@ -19,8 +19,8 @@ constexpr std::uint32_t kLongestPeriod_ms = 1000;
 constexpr int kForgivenPeriods = 5;
 /// A line that was full for a moment takes the next round.
 constexpr Duration kRunsOnFor = std::chrono::milliseconds(150);
-/// A line whose other end is gone takes some messages, and keeps them.
-constexpr Duration kTold = std::chrono::seconds(1);
+/// A line whose other end is gone takes messages and keeps them: some 300, of one a period 3 s.
+constexpr Duration kTold = std::chrono::seconds(5);
 /// The guard looks each 10 ms: what is due nearer to this look than to the next goes now.
 constexpr Duration kHalfACycle = std::chrono::milliseconds(5);
 

@@ -122,16 +122,16 @@ TEST_F(GuardStopSet, LeavesADriveItsSupplyThatWasToldItsStop) {
   ASSERT_TRUE(set.add_axis(wheel) && set.add_message(stop(0, 0, 'w')));
   set.begin_hold();
   std::array<char, 64> read{};
-  for (int i = 0; i < 110; ++i) {
+  for (int i = 0; i < 510; ++i) {
     play(set, kStart + i * 10ms, 1);
     while (::recv(ends[0], read.data(), read.size(), 0) > 0) continue;
   }
   ::close(ends[0]);
-  play(set, kStart + 1100ms, 40);
-  EXPECT_FALSE(set.runs_on(kStart + 1490ms));
+  play(set, kStart + 5100ms, 40);
+  EXPECT_FALSE(set.runs_on(kStart + 5490ms));
   set.begin_hold();
-  play(set, kStart + 1500ms, 20);
-  EXPECT_TRUE(set.runs_on(kStart + 1690ms)) << "of a new hold it was told nothing";
+  play(set, kStart + 5500ms, 20);
+  EXPECT_TRUE(set.runs_on(kStart + 5690ms)) << "of a new hold it was told nothing";
 }
 
 TEST_F(GuardStopSet, EachAxisHasItsOwnPeriod) {
