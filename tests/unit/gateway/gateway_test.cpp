@@ -93,7 +93,7 @@ CanFrame bus_off() {
 /// Its bus works, and something else hangs on it.
 TEST(Gateway, TellsWhoSpeaksOnABusWhoseDrivesAreSilent) {
   Bench bench;
-  bench.said = {"141#00", "142#00", "02D#0000000000000000"};
+  bench.said = {"141#00", "142#00", "02D#0000000000000000", "04D#0000000000000000"};
   for (int i = 0; i < 590; ++i) bench.cycle();
   EXPECT_FALSE(bench.told("frames of other devices"));
   for (int i = 0; i < 40; ++i) bench.cycle();
@@ -118,7 +118,7 @@ TEST(Gateway, AsksForTheIdOfADriveThatIsSilentBesideOneThatIsHeard) {
 /// They are there, and what is wrong with them their driver knows.
 TEST(Gateway, TellsOfNoStrangersInsteadOfADriveThatSaysTooLittle) {
   Bench bench;
-  bench.said = {"021#0000000008000000", "041#0000000008000000", "141#00"};
+  bench.said = {"021#0000000008000000", "041#0000000008000000", "141#00", "142#00"};
   for (int i = 0; i < 700; ++i) bench.cycle();
   EXPECT_FALSE(bench.told("frames of other devices"));
 }

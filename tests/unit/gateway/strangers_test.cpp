@@ -58,7 +58,7 @@ TEST(Strangers, AreNamedByAFewIdsAndStandStill) {
   EXPECT_NE(before.find("(0x18FF1234, 0x001, 0x002)"), std::string::npos) << before;
   bus.speak(1s, {make_frame(3, {}), make_frame(4, {}), make_frame(5, {})});
   const std::string more = bus.told();
-  EXPECT_NE(more.find("(0x18FF1234, 0x001, 0x002, ...)"), std::string::npos) << more;
+  EXPECT_NE(more.find("(0x18FF1234, 0x001, 0x002, …)"), std::string::npos) << more;
   bus.speak(10s, {make_frame(6, {}), make_frame(1, {})});
   EXPECT_EQ(bus.told(), more);
 }
