@@ -255,28 +255,29 @@ TEST_F(EngineGroup, ANewProgramIsNotToldHowLongTheLastOneWasSilent) {
   EXPECT_EQ(told().state, GroupState::following);
 }
 
-/// Nor that of one who was too slow, and came by another way.
-TEST_F(EngineGroup, ANewProgramOfAnotherWayIsNotToldHowSlowTheLastOneWas) {
-  settle();
-  for (int i = 0; i < 10; ++i) {
-    send(0.3);
-    run_s(0.15);
+class ANewProgramOfAnotherWay : public EngineGroup {
+ protected:
+  void comes_after_one_who_was_too_slow() {
+    settle();
+    for (int i = 0; i < 10; ++i) {
+      send(0.3);
+      run_s(0.15);
+    }
+    ASSERT_THAT(reason(), HasSubstr("150 ms apart"));
+    source = RequestId::Source::ros2;
   }
-  ASSERT_THAT(reason(), HasSubstr("150 ms apart"));
-  source = RequestId::Source::ros2;
+};
+
+/// Nor that of one who was too slow, and came by another way.
+TEST_F(ANewProgramOfAnotherWay, IsNotToldHowSlowTheLastOneWas) {
+  ASSERT_NO_FATAL_FAILURE(comes_after_one_who_was_too_slow());
   send_s(0.1, 0.4);
   EXPECT_EQ(reason(), "");
 }
 
 /// It is of all its joints that somebody else sends now, though he names them in turn.
-TEST_F(EngineGroup, ANewProgramOfAnotherWayIsNotToldThatOfAJointThatItNamesSecond) {
-  settle();
-  for (int i = 0; i < 10; ++i) {
-    send(0.3);
-    run_s(0.15);
-  }
-  ASSERT_THAT(reason(), HasSubstr("150 ms apart"));
-  source = RequestId::Source::ros2;
+TEST_F(ANewProgramOfAnotherWay, IsNotToldThatOfAJointThatItNamesSecond) {
+  ASSERT_NO_FATAL_FAILURE(comes_after_one_who_was_too_slow());
   JointTargets other;
   (void)other.joints.push_back({static_cast<AxisId>(first + 1), 0, 0.3, 0, 60, 3});
   rig.command(other, source);
