@@ -7,6 +7,7 @@
 
 #include "drover/angle.h"
 #include "engine/base/words.h"
+#include "engine/health/first_way_words.h"
 #include "engine/health/ground_way.h"
 #include "engine/health/place_sigma.h"
 #include "engine/still.h"
@@ -38,6 +39,11 @@ const double kSameWay = std::cos(to_rad(60.0));  // of two jumps
 // A position is a second apart from the next one, and late.
 constexpr double kComparedShare = 2.0 / 3;
 constexpr double kShortest_m = 0.1;  // of a way that is found too short
+
+/// Of the newest in a running mean of about a second.
+double share_of_mean(int count) {
+  return 1.0 / std::min(count, 10);
+}
 
 }  // namespace
 
@@ -77,8 +83,7 @@ void MechanicsCheck::on_position(const GnssPosition& position, Time at) {
   fresh_position_ = true;
   Rest* rest = rest_at(at);
   if (rest == nullptr) return;
-  // A running mean of about a second.
-  const double share = 1.0 / std::min(++rest->places, 10);
+  const double share = share_of_mean(++rest->places);
   rest->north_deg += share * (position.latitude_deg - rest->north_deg);
   rest->east_deg += share * (position.longitude_deg - rest->east_deg);
 }
@@ -95,7 +100,7 @@ void MechanicsCheck::on_heading(const GnssHeading& heading, Time at) {
   if (proved_ || !std::isfinite(heading.heading_deg)) return;
   const double yaw_rad = yaw_rad_from_compass_deg(heading.heading_deg);
   if (Rest* rest = rest_at(at); rest != nullptr) {
-    const double share = 1.0 / std::min(++rest->headings, 10);
+    const double share = share_of_mean(++rest->headings);
     rest->heading_cos += share * (std::cos(yaw_rad) - rest->heading_cos);
     rest->heading_sin += share * (std::sin(yaw_rad) - rest->heading_sin);
     return;
@@ -127,22 +132,6 @@ void MechanicsCheck::begin_anew() {
   rest_ = settled_;
 }
 
-void MechanicsCheck::say_turn(double by_gyro_rad, double by_wheels_rad) {
-  const bool heading = std::isfinite(heading_turn_rad_);
-  const double by_receiver_rad = heading ? heading_turn_rad_ : 0;
-  if (heading &&
-      std::abs(by_receiver_rad - by_wheels_rad) < std::abs(by_receiver_rad - by_gyro_rad)) {
-    fault_.format(
-        "the gyro turned %+.0f degrees, %s %+.0f, the receiver %+.0f: is the IMU mounted "
-        "as configured, and groups.base.track_m right?",
-        to_deg(by_gyro_rad), words_->wheels, to_deg(by_wheels_rad), to_deg(by_receiver_rad));
-  } else {
-    fault_.format("%s the robot turned %+.0f degrees, by the %s %+.0f: %s", words_->by,
-                  to_deg(by_wheels_rad), heading ? "gyro and receiver" : "gyro",
-                  to_deg(by_gyro_rad), words_->wrong_turn);
-  }
-}
-
 bool MechanicsCheck::hears_gyro(const MechanicsInput& input) const {
   return input.gyro_zero_known && gyro_at_ != kNever &&
          std::abs(to_s(input.now - gyro_at_)) < kGyroStale_s;
@@ -160,51 +149,22 @@ void MechanicsCheck::compare_turn(const MechanicsInput& input) {
     return std::abs(other_rad - wheels_rad) > kTurnMargin_rad + kTurnShare * std::abs(wheels_rad);
   };
   if (hears_gyro(input)) {
-    if (apart(last_.gyro_rad, last_.wheels.turn_rad))
-      say_turn(last_.gyro_rad, last_.wheels.turn_rad);
+    if (apart(last_.gyro_rad, last_.wheels.turn_rad)) fault_ = odd_turn(*words_, turns());
     return;
   }
   const Mark* then = std::isfinite(heading_turn_rad_) ? marks_.at(heading_at_) : nullptr;
   if (then == nullptr || !apart(heading_turn_rad_, then->wheels.turn_rad)) return;
-  fault_.format("%s the robot turned %+.0f degrees, by the receiver %+.0f: %s", words_->by,
-                to_deg(then->wheels.turn_rad), to_deg(heading_turn_rad_), words_->wrong_turn);
-}
-
-/// What a turn that did not come may be for.
-Reason MechanicsCheck::why_no_turn() const {
-  const auto& left = config_.base.left;
-  const auto& right = config_.base.right;
-  Reason why = words_->no_swing;
-  if (left.size() != 2 || right.size() != 2) return why;
-  const auto name = [this](AxisId id) { return config_.joints[id].view(); };
-  const auto pair = [&](std::size_t i) {
-    FixedText<100> both;
-    const std::string_view l = name(left[i]);
-    const std::string_view r = name(right[i]);
-    both.format("%.*s/%.*s", static_cast<int>(l.size()), l.data(), static_cast<int>(r.size()),
-                r.data());
-    return both;
-  };
-  const auto front = pair(0);
-  const auto rear = pair(1);
-  why.format("are the sides swapped on one axle (%.*s or %.*s)?",
-             static_cast<int>(front.view().size()), front.view().data(),
-             static_cast<int>(rear.view().size()), rear.view().data());
-  return why;
+  fault_ = odd_turn_by_receiver(*words_, then->wheels.turn_rad, heading_turn_rad_);
 }
 
 void MechanicsCheck::say_no_swing(bool by_gyro) {
-  if (by_gyro && std::isfinite(heading_turn_rad_) &&
-      std::abs(heading_turn_rad_ - last_.gyro_rad) > kTurnMargin_rad) {
-    say_turn(last_.gyro_rad, last_.wheels.turn_rad);
-    return;
-  }
-  const Reason why = why_no_turn();
-  const bool slips = swing_.wheels_rad() != 0;
-  fault_.format("%s %+.0f degrees, by the %s %+.0f: %.*s", slips ? words_->turned : "asked to turn",
-                to_deg(slips ? swing_.wheels_rad() : swing_.asked_rad()),
-                by_gyro ? "gyro" : "receiver", to_deg(swing_.turned_rad()),
-                static_cast<int>(why.view().size()), why.view().data());
+  const bool gyro_is_odd = by_gyro && std::isfinite(heading_turn_rad_) &&
+                           std::abs(heading_turn_rad_ - last_.gyro_rad) > kTurnMargin_rad;
+  fault_ = gyro_is_odd ? odd_turn(*words_, turns())
+                       : no_swing(config_, {.asked_rad = swing_.asked_rad(),
+                                            .wheels_rad = swing_.wheels_rad(),
+                                            .turned_rad = swing_.turned_rad(),
+                                            .by_gyro = by_gyro});
 }
 
 /// Wheels of one axle that work against those of the other turn nothing, and their mean is what
@@ -253,11 +213,8 @@ void MechanicsCheck::compare_aside(const PathPoint& went, const Mark& wheels, do
   if (place_turn_.verdict() == PlaceTurn::Verdict::open ||
       place_turn_.verdict() == PlaceTurn::Verdict::right)
     return;
-  const bool against = place_turn_.verdict() == PlaceTurn::Verdict::against;
-  const Reason why = against ? Reason(words_->wrong_turn) : why_no_turn();
-  fault_.format("%s %+.0f degrees, by where the receiver went %+.0f: %.*s", words_->turned,
-                to_deg(place_turn_.wheels_rad()), to_deg(place_turn_.turned_rad()),
-                static_cast<int>(why.view().size()), why.view().data());
+  fault_ = odd_turn_by_places(config_, place_turn_.wheels_rad(), place_turn_.turned_rad(),
+                              place_turn_.verdict() == PlaceTurn::Verdict::against);
 }
 
 void MechanicsCheck::compare_place(const Mark& wheels) {
@@ -305,13 +262,10 @@ bool MechanicsCheck::compare_way(const PathPoint& went, const Mark& wheels, doub
   const double odd_m = std::max(too_much_m, too_little_m);
   odd_places_ = odd_m > kWaySigmas * sigma_m ? odd_places_ + 1 : 0;
   if (odd_places_ < 2 && !(odd_m > kWaySigmasAtOnce * sigma_m)) return true;
-  if (back) {
-    fault_.format("%s %+.2f m, the receiver went %+.2f m: %s", words_->rolled, rolled_m, ahead_m,
-                  words_->wrong_way);
-  } else {
-    fault_.format("%s %.2f m, the receiver went %.2f m: %s", words_->rolled, std::abs(rolled_m),
-                  gone_m, too_little_m > too_much_m ? words_->short_way : words_->long_way);
-  }
+  fault_ = odd_way(*words_, {.wheels_m = rolled_m,
+                             .ahead_m = ahead_m,
+                             .gone_m = gone_m,
+                             .is_short = too_little_m > too_much_m});
   return true;
 }
 
@@ -378,8 +332,11 @@ Reason MechanicsCheck::slowly(FirstWay who) const {
     // Never "0.00 m are left".
     why.format("slowly: %s, gyro and receiver are compared on the first %.3g m, %.2f m are left",
                words_->wheels, first_m, std::max(left_m, 0.01));
-  } else if (guided_ && (awaits_turn() || !swing_.is_over())) {
+  } else if (guided_ && !swing_.is_over()) {
     why = "slowly: it was not seen to turn to both sides yet";
+  } else if (awaits_turn()) {
+    // So far from where it began nothing shows it any more.
+    why = "slowly: its turn was not seen; let it rest for two seconds, and it turns again";
   } else {
     why.format("slowly: %s, gyro and receiver could not be compared yet", words_->wheels);
   }
@@ -392,7 +349,7 @@ Twist MechanicsCheck::guide(const Twist& wanted) {
   Twist twist = wanted;
   const double cap_mps = speed_cap_mps(FirstWay::hand);
   twist.vx_mps = std::clamp(wanted.vx_mps, -cap_mps, cap_mps);
-  // Nobody saw it turn yet; it is steered again, on the same curve.
+  // Nobody saw it turn; it is steered again, on the same curve, until it rests.
   if (swing_.is_over()) {
     twist.wz_radps *= std::abs(twist.vx_mps / wanted.vx_mps);
     return twist;

@@ -8,13 +8,12 @@
 #include "drover/snapshot.h"
 #include "drover/twist.h"
 #include "engine/config.h"
+#include "engine/health/first_way_words.h"
 #include "engine/health/mark_ring.h"
 #include "engine/health/place_turn.h"
 #include "engine/health/swing.h"
 
 namespace drover::engine {
-
-struct BaseWords;
 
 struct MechanicsInput {
   Time now = kNever;
@@ -97,18 +96,17 @@ class MechanicsCheck final {
   void begin();
   Rest* rest_at(Time at);
   bool hears_gyro(const MechanicsInput& input) const;
+  TurnAccounts turns() const { return {last_.wheels.turn_rad, last_.gyro_rad, heading_turn_rad_}; }
   /// By the gyro, or else the receiver, since the motion began; absent: nobody knows.
   double turned_rad(const MechanicsInput& input) const;
   void compare_turn(const MechanicsInput& input);
   void watch_swing(const MechanicsInput& input);
-  Reason why_no_turn() const;
   void say_no_swing(bool by_gyro);
   bool shown_by_places() const;
   void compare_place(const Mark& wheels);
   bool compare_way(const PathPoint& went, const Mark& wheels, double sigma_m);
   void compare_aside(const PathPoint& went, const Mark& wheels, double sigma_m);
   bool jumps(const PathPoint& way, const Mark& wheels, double sigma_m);
-  void say_turn(double by_gyro_rad, double by_wheels_rad);
 
   EngineConfig config_;
   const BaseWords* words_;

@@ -131,9 +131,12 @@ TEST_F(ARobotWhoseTurnsNobodyTells, GoesOnSlowlyWhereItWasNotSeenToTurn) {
   rig.mechanics.differs = 0;
   find_its_heading();
   rig.start(path, 40, 0.5);
-  run_s(50);
-  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << ended();
+  run_s(15);
   EXPECT_EQ(rig.why(), "slowly: it was not seen to turn to both sides yet");
+  run_s(35);
+  EXPECT_EQ(rig.snapshot().nav.status, NavStatus::run) << ended();
+  EXPECT_EQ(rig.why(),
+            "slowly: its turn was not seen; let it rest for two seconds, and it turns again");
   EXPECT_LT(std::abs(rig.plant.truth().vx_mps), 0.06);
   EXPECT_FALSE(rig.out.remembered.mechanics_proved);
 }
