@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/clock.h"
+#include "runtime/hand_back.h"
 
 namespace drover::runtime {
 
@@ -232,8 +233,7 @@ void ControlLoop::watch_guard(Time now) {
   if (guard_watch_.update(guard_signs(), now)) (void)exchange_.stops.ask_stop();
   const auto& robot = gateway_.snapshot();
   const bool calm = robot.nav.status != NavStatus::run && !program_.trouble();
-  if (guard_watch_.ask_back(calm, robot.hold == HoldState::catching, now))
-    keeper_.request_hand_back();
+  if (guard_watch_.ask_back(calm, cannot_wait(robot), now)) keeper_.request_hand_back();
 }
 
 Time ControlLoop::publish(Time now) {

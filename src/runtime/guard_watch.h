@@ -20,8 +20,8 @@ class GuardWatch final {
  public:
   /// The bus is asked back when the robot was at rest and our heartbeat good for this long.
   static constexpr Duration kHandBackAfter = std::chrono::milliseconds(500);
-  /// A robot that rolls cannot wait: its drives are taken back at their own speed, not under zeros.
-  static constexpr Duration kHandBackToCatch = std::chrono::milliseconds(30);
+  /// What moves on under the guard's frames cannot wait.
+  static constexpr Duration kHandBackAtOnce = std::chrono::milliseconds(30);
   /// The guard's own cycle is 10 ms. It is given what it gives us, and three cycles more; then it
   /// is not there.
   static constexpr Duration kCycles = std::chrono::milliseconds(30);
@@ -63,8 +63,9 @@ class GuardWatch final {
   bool refuses_set() const { return set_refused_; }
 
   /// True when the bus is to be asked back now; `calm`: no task, and the program is well.
-  bool ask_back(bool calm, bool rolls, Time now) {
-    const Duration pause = rolls ? kHandBackToCatch : kHandBackAfter;
+  /// `at_once`: see cannot_wait().
+  bool ask_back(bool calm, bool at_once, Time now) {
+    const Duration pause = at_once ? kHandBackAtOnce : kHandBackAfter;
     if (!holds(now) || latched_ || !calm) return false;
     if (now - held_since_ <= pause || now - asked_ <= pause) return false;
     asked_ = now;

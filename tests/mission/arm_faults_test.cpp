@@ -210,6 +210,26 @@ TEST(ArmHung, TheNextDaemonHoldsItAndDrives) {
   expect_good_drive(log, 3);
 }
 
+/// Nobody takes its place for so long: the guard damps, and is asked for the bus as soon as the
+/// next one sees that it sinks.
+TEST(ArmRestart, SinksByLittleMoreThanWhileNobodyHoldsIt) {
+  const Record& log = record("arm_restart");
+  for (const auto& [ended, began, most_rad] :
+       {std::tuple{"event ended#1", "event restarted#1", 0.1},
+        std::tuple{"event ended_again#1", "event restarted_late#1", 0.35}}) {
+    const double held = arm_at(log, kShoulder, log.event(ended));
+    const Time start = log.event(began);
+    const double alone = held - arm_at(log, kShoulder, start);
+    const double in_all = held - arm_at(log, kShoulder, start + 3s);
+    figure("sank before the next began", alone, "rad");
+    figure("sank in all", in_all, "rad");
+    EXPECT_LT(in_all, most_rad);
+    EXPECT_LT(in_all - alone, 0.03);
+    EXPECT_LT(strayed(log, kShoulder, start + 1s, start + 3s), 0.01);
+    expect_stiff(log, kShoulder, start + 1s, start + 3s);
+  }
+}
+
 /// Its motors obey and are not heard, or its bus is gone for a moment: it does not fall.
 struct ArmUnheard : testing::Test {
   const Record& log = record("arm_unheard");

@@ -10,13 +10,13 @@ using namespace std::chrono_literals;
 class AGuardWatch : public ::testing::Test {
  protected:
   /// Cycles of 5 ms; true when the bus was asked back in one of them.
-  bool pass(Duration time, bool calm = true, bool rolls = false) {
+  bool pass(Duration time, bool calm = true, bool at_once = false) {
     bool asked = false;
     for (const Time end = now + time; now < end;) {
       now += 5ms;
       if (guard_lives) ++signs.beats;
       (void)watch.update(signs, now);
-      asked |= watch.ask_back(calm, rolls, now);
+      asked |= watch.ask_back(calm, at_once, now);
     }
     return asked;
   }
