@@ -112,7 +112,9 @@ struct HeldUp {
 struct Tick {
   bool guard_alive = false;
   bool guard_has_bus = false;  ///< it sends stop frames; ours are blocked until hand-back
-  bool guard_latched = false;  ///< somebody stopped the robot at the guard, until a reset there
+  /// Somebody stopped the robot at the guard, until a reset there: then it leaves this program what
+  /// it cannot hold itself. False, too, where it takes this program for gone, and has all.
+  bool guard_latched = false;
   /// It keeps the stop set of another configuration, and takes this one's with a reset there.
   bool guard_refuses_set = false;
 };

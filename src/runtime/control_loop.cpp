@@ -115,8 +115,9 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   take_commands(begin);
 
   const bool guard_alive = guard_watch_.alive(begin) && keeper_.guard_equipped();
-  apply(begin, gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.latched(),
-                             guard_watch_.refuses_set()});
+  apply(begin,
+        gateway::Tick{guard_alive, guard_watch_.holds(begin),
+                      guard_watch_.leaves_the_rest(leaves_to_guard_), guard_watch_.refuses_set()});
   // Before the events go: who hears that a path is released may delete it.
   if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);
   show_scene();
@@ -130,8 +131,9 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
 
   keep(out.engine.remembered);
   // A daemon that half hangs leaves the robot to the guard, once it is at rest.
-  if (!program_.leaves_to_guard(begin, exchange_.at_rest.load(std::memory_order_relaxed)))
-    guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
+  leaves_to_guard_ =
+      program_.leaves_to_guard(begin, exchange_.at_rest.load(std::memory_order_relaxed));
+  if (!leaves_to_guard_) guard_.shared().daemon_beats.fetch_add(1, std::memory_order_release);
   exchange_.beats.fetch_add(1, std::memory_order_relaxed);
   for (const auto& event : out.engine.events)
     if (!exchange_.events.push(event)) exchange_.lost_events.fetch_add(1);

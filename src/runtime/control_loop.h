@@ -111,6 +111,7 @@ class ControlLoop final {
   Duration wall_minus_monotonic_{};
   CycleStats stats_;
   GuardWatch guard_watch_;
+  bool leaves_to_guard_ = false;  ///< since the cycle before: its heartbeat ends
   HoldUps hold_ups_;
   CommandIntake intake_;
   ProgramWatch program_;

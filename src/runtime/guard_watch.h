@@ -31,7 +31,10 @@ class GuardWatch final {
 
   /// Each cycle. True when the guard was told to stop and this program was not yet.
   bool update(const GuardSigns& signs, Time now) {
-    const bool held_up = updated_ != kNever && now - updated_ > kCycles;
+    const Duration gap = updated_ == kNever ? Duration{} : now - updated_;
+    const bool held_up = gap > kCycles;
+    // By the guard's own count.
+    missed_us_ = gap >= silent_after_ - kCycles;
     updated_ = now;
     if (signs.beats != beats_) {
       beats_ = signs.beats;
@@ -59,6 +62,12 @@ class GuardWatch final {
     return signs.holds && (signs.beats != beats_ || heard_recently(now));
   }
   bool latched() const { return latched_; }
+  /// Its stop from outside leaves this program what it cannot hold itself. Not where it missed our
+  /// heartbeat since the cycle before, or gets none (`leaves_to_guard`): then it plays all, and two
+  /// would write; what it damped meanwhile has gone on from where it was held.
+  bool leaves_the_rest(bool leaves_to_guard) const {
+    return latched_ && !missed_us_ && !leaves_to_guard;
+  }
   /// It keeps the stop set of another program, until it is reset.
   bool refuses_set() const { return set_refused_; }
 
@@ -85,6 +94,7 @@ class GuardWatch final {
   bool holds_ = false;
   bool latched_ = false;
   bool set_refused_ = false;
+  bool missed_us_ = false;  ///< this program stood still for so long that it was taken for gone
 };
 
 }  // namespace drover::runtime

@@ -47,6 +47,7 @@ void JointShaper::take_over(const JointMeasured& measured) {
   stiffness_ = effort_Nm_ = 0;
   damping_ = rules_.damping_Nmsprad;
   stiffest_ = most_damped_ = 0;
+  asked_rad_ = kAbsent;
   holds_ = false;
   limited_ = 0;
   tell(0, measured);
@@ -81,6 +82,29 @@ void JointShaper::approach_velocity(double wanted_radps, double dt_s) {
   position_rad_ += velocity_radps_ * dt_s;
 }
 
+/// So fast that its set point still stops at an end of its way; `outwards`: 1 or -1.
+double JointShaper::stops_from(double end_rad, double outwards) const {
+  const double left_rad = std::max(outwards * (end_rad - position_rad_), 0.0);
+  return std::sqrt(2 * kBrakesWith * rules_.max_acceleration_radps2 * left_rad);
+}
+
+/// What a cycle is too long for.
+void JointShaper::end_at(double end_rad, double dt_s) {
+  const double beyond_rad = position_rad_ - end_rad;
+  if (beyond_rad * velocity_radps_ <= 0 || std::abs(beyond_rad) > std::abs(velocity_radps_) * dt_s)
+    return;
+  position_rad_ = end_rad;
+  velocity_radps_ = 0;
+}
+
+/// A speed goes ahead of a position that moves by it. One that stands for longer than its commands
+/// may be apart does not move.
+double JointShaper::ahead_radps(const JointTarget& target, double wanted_radps, double dt_s) {
+  stands_s_ = target.position_rad == asked_rad_ ? stands_s_ + dt_s : 0;
+  asked_rad_ = target.position_rad;
+  return stands_s_ <= rules_.timeout_s ? wanted_radps : 0;
+}
+
 /// So fast that it still stops there; on the way of something that moves itself with its speed.
 void JointShaper::approach_position(double wanted_rad, double wanted_radps, double fastest_radps,
                                     double dt_s) {
@@ -90,7 +114,10 @@ void JointShaper::approach_position(double wanted_rad, double wanted_radps, doub
   const double nearer = std::min(reach, std::abs(away) / std::max(dt_s, 1e-9));
   const double wanted =
       std::clamp(wanted_radps + std::copysign(nearer, away), -fastest_radps, fastest_radps);
-  approach_velocity(wanted, dt_s);
+  approach_velocity(within(JointValue::position, wanted, -stops_from(rules_.min_rad, -1),
+                           stops_from(rules_.max_rad, 1)),
+                    dt_s);
+  end_at(velocity_radps_ > 0 ? rules_.max_rad : rules_.min_rad, dt_s);
   const bool arrived = (wanted_rad - position_rad_) * away <= 0 || std::abs(away) < kSame_rad;
   if (!arrived || std::abs(velocity_radps_ - wanted_radps) > step_radps + kSame_rad) return;
   position_rad_ = wanted_rad;
@@ -110,9 +137,13 @@ void JointShaper::tell(double velocity_radps, const JointMeasured& measured) {
 /// drawn to the joint, and goes on from there by the joint's limits.
 void JointShaper::keep_torque(double stiffness_before, const JointMeasured& measured) {
   if (stiffness_ <= stiffness_before) return;
-  const double gave_Nm = stiffness_before * (position_rad_ - measured.position_rad);
+  draw_to(stiffness_before * (position_rad_ - measured.position_rad), measured);
+}
+
+/// So that stiffness makes that of the distance.
+void JointShaper::draw_to(double gives_Nm, const JointMeasured& measured) {
   position_rad_ = measured.position_rad +
-                  std::clamp(gave_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm) / stiffness_;
+                  std::clamp(gives_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm) / stiffness_;
 }
 
 void JointShaper::follow_position(const JointTarget& target, double stiffness, double damping,
@@ -126,6 +157,7 @@ void JointShaper::follow_position(const JointTarget& target, double stiffness, d
   const double effort =
       within(JointValue::effort, target.effort_Nm, -rules_.max_effort_Nm, rules_.max_effort_Nm);
   const double stiffness_before = stiffness_;
+  const double ahead = ahead_radps(target, wanted_radps, dt_s);
   approach_gains(stiffness, damping, effort, dt_s);
   if (stiffness == 0) {
     // The position has no weight, also while the stiffness that was there goes down: whoever gives
@@ -134,7 +166,7 @@ void JointShaper::follow_position(const JointTarget& target, double stiffness, d
     if (stiffness_ == 0) position_rad_ = measured.position_rad;
   } else {
     keep_torque(stiffness_before, measured);
-    approach_position(wanted_rad, wanted_radps, drawn(stiffness) * rules_.max_velocity_radps, dt_s);
+    approach_position(wanted_rad, ahead, drawn(stiffness) * rules_.max_velocity_radps, dt_s);
   }
   tell(velocity_radps_, measured);
 }
@@ -262,13 +294,19 @@ void JointShaper::look_at_weight(const JointMeasured& measured, double dt_s) {
 void JointShaper::hold(const JointMeasured& measured, double dt_s, bool keeps_weight) {
   limited_ = 0;
   if (!holds_) begin_hold(measured, keeps_weight);
+  const double gave_Nm = stiffness_ * (position_rad_ - held_rad_);
   look_at_weight(measured, dt_s);
   const double carried_Nm = weight_.keeps_Nm();
   // A weight is taken up sooner than an effort is let go.
   if (std::abs(effort_Nm_) < std::abs(carried_Nm))
     effort_Nm_ =
         approach(effort_Nm_, carried_Nm, (kCatches - 1) * risen(dt_s) * rules_.max_effort_Nm);
+  const double stiffness_before = stiffness_;
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, carried_Nm, dt_s);
+  // What is faster than it may be goes on until it is braked. By then what is becoming stiff would
+  // throw it back.
+  const bool fast = std::abs(measured.velocity_radps) > rules_.max_velocity_radps;
+  if (fast && stiffness_ > stiffness_before) draw_to(gave_Nm, measured);
   approach_velocity(0, dt_s);
   tell(velocity_radps_, measured);
 }

@@ -66,9 +66,13 @@ class JointShaper final {
   double drawn(double stiffness) const;
   double risen(double dt_s) const;
   void keep_torque(double stiffness_before, const JointMeasured& measured);
+  void draw_to(double gives_Nm, const JointMeasured& measured);
   void approach_gains(double stiffness, double damping, double effort, double dt_s);
   void approach_position(double wanted_rad, double wanted_radps, double fastest_radps, double dt_s);
   void approach_velocity(double wanted_radps, double dt_s);
+  double stops_from(double end_rad, double outwards) const;
+  void end_at(double end_rad, double dt_s);
+  double ahead_radps(const JointTarget& target, double wanted_radps, double dt_s);
   void follow_position(const JointTarget& target, double stiffness, double damping,
                        const JointMeasured& measured, double dt_s);
   void follow_velocity(const JointTarget& target, const JointMeasured& measured, double dt_s);
@@ -89,6 +93,8 @@ class JointShaper final {
   double stiffest_ = 0;
   double most_damped_ = 0;
   double effort_Nm_ = 0;
+  double asked_rad_ = kAbsent;  ///< by the command before
+  double stands_s_ = 0;         ///< for so long it asks for the same place
   bool holds_ = false;
   JointWeight weight_;   ///< while it holds
   double held_rad_ = 0;  ///< it was measured, in the cycle of holding before

@@ -122,6 +122,24 @@ TEST_F(AGuardWatch, LeavesTheBusToAGuardThatIsLatchedAndTellsOfTheLatchOnce) {
   EXPECT_TRUE(pass(10ms));
 }
 
+/// Two would write otherwise, and what sank meanwhile would be torn back.
+TEST_F(AGuardWatch, IsLeftNothingByAStopFromOutsideWhileItsOwnHeartbeatIsMissed) {
+  EXPECT_FALSE(watch.leaves_the_rest(false)) << "nobody stopped it";
+  signs.holds = signs.latched = true;
+  pass(20ms);
+  EXPECT_TRUE(watch.leaves_the_rest(false));
+  EXPECT_FALSE(watch.leaves_the_rest(true));
+  now += 45ms;
+  beat();
+  EXPECT_TRUE(watch.leaves_the_rest(false)) << "the guard bears 50 ms";
+  now += 50ms;
+  beat();
+  EXPECT_FALSE(watch.leaves_the_rest(false));
+  now += 5ms;
+  beat();
+  EXPECT_TRUE(watch.leaves_the_rest(false)) << "it has a heartbeat again";
+}
+
 TEST_F(AGuardWatch, TellsOfALatchAndOfAStopSetThatTheGuardDidNotTake) {
   signs.holds = true;
   (void)watch.update(signs, now);
