@@ -62,6 +62,7 @@ publish::aimrt::JointCommandsConfig joint_commands_config(const config::DroverCo
       auto& joint = commands.rules.joints.at(rules.axis);
       joint.follows = rules.follows;
       joint.group = i + 1;
+      joint.carries_weight = rules.carries_weight;
       joint.timeout = from_s(rules.timeout_s);
       commands.just_came = std::max(commands.just_came, joint.timeout);
     }

@@ -70,5 +70,36 @@ TEST_F(ArmRelease, AfterHoldTheArmFollowsAndTheBaseDrivesToItsGoal) {
   EXPECT_EQ(log.statuses.back().nav, "NAV_SUCCESS");
 }
 
+/// It was thrown back by half a radian, at 4.2 rad/s.
+TEST(ArmLed, IsBrakedAndHeldWhereItComesToRest) {
+  const Record& log = record("arm_led");
+  const auto check = [&](Time begin, Time end) {
+    double fastest = 0;
+    double farthest = -10;
+    double back_radps = 0;
+    for (std::size_t i = 1; i < log.truth.size(); ++i) {
+      const TruthLine& line = log.truth[i];
+      if (line.time < begin || line.time > end) continue;
+      const double rad = line.arm_rad.at(kBaseYaw);
+      const double before_rad = log.truth[i - 1].arm_rad.at(kBaseYaw);
+      const double radps = (rad - before_rad) / to_s(line.time - log.truth[i - 1].time);
+      fastest = std::max(fastest, radps);
+      farthest = std::max(farthest, rad);
+      back_radps = std::max(back_radps, -radps);
+    }
+    figure("fastest, by a hand", fastest, "rad/s");
+    figure("came back by", farthest - arm_at(log, kBaseYaw, end), "rad");
+    figure("fastest on its way back", back_radps, "rad/s");
+    EXPECT_GT(fastest, 3) << "else nothing is shown";
+    EXPECT_LT(farthest - arm_at(log, kBaseYaw, end), 0.1);
+    EXPECT_LT(back_radps, 1);
+    EXPECT_LT(strayed(log, kBaseYaw, end - 1s, end), 0.01);
+  };
+  const Time pressed = log.event("event pressed#1");
+  check(pressed, pressed + 3900ms);
+  const Time again = log.event("event push_again#1");
+  check(again, again + 3900ms);
+}
+
 }  // namespace
 }  // namespace drover::mission

@@ -327,7 +327,7 @@ INSTANTIATE_TEST_SUITE_P(Each, ArmWires,
                                          "arm_faults", "arm_hung", "arm_sinks", "arm_holds",
                                          "arm_steps", "arm_push", "arm_trust", "arm_mirrored",
                                          "arm_release", "arm_presses", "arm_silence", "arm_restart",
-                                         "two_arms"),
+                                         "arm_led", "two_arms"),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Each, ArmKill, testing::Values("arm_kill", "scout_arm_kill"), name_of);
 

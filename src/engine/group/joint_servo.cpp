@@ -173,6 +173,8 @@ void JointServo::run(const Input& input) {
   }
   command_.velocity_radps = loop_.shaper.velocity_radps();
   command_.impedance = loop_.shaper.impedance();
+  // None of it arrives: the guard can only damp it.
+  if (input.blocked) state_ = GroupState::damping;
 }
 
 /// A drive that is just found, or was somebody else's, is where it says.

@@ -118,6 +118,9 @@ Reason number_problem(const JointCommandEntry& joint, const JointRule& rule) {
     reason.format("%s %g is negative", field.name, field.value);
     return reason;
   }
+  const bool limp = joint.stiffness == 0 && joint.damping == 0 && joint.effort_Nm == 0;
+  if (rule.carries_weight && rule.follows == JointFollows::impedance && limp)
+    reason = "stiffness, damping and effort are 0: it carries a weight, and would fall";
   return reason;
 }
 

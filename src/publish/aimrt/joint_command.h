@@ -45,6 +45,7 @@ struct JointRule {
   std::string name;
   std::optional<JointFollows> follows;  ///< none: a wheel of the base, which follows a velocity
   std::size_t group = 0;                ///< whose owners it has; 0: the base's
+  bool carries_weight = false;          ///< left without any torque it falls
   Duration timeout{};  ///< so far apart its commands may be; 0: no farther than a wheel's
 };
 
@@ -69,7 +70,8 @@ Result<JointCommandMessage, Reason> decode_joint_command_json(std::string_view t
 /// `wall` is now since the epoch, `last_stamp_ns` that of the last message that was accepted, 0
 /// when there is none. A wheel follows a velocity: with stiffness 0 a position has no weight, so it
 /// is checked and not used. What other joints follow their rule says; a value that a joint does not
-/// follow has to be 0. What is beyond the limits is for the engine to clamp.
+/// follow has to be 0. One that carries a weight is not let fall by a command that holds it by
+/// nothing, as a position alone does. What is beyond the limits is for the engine to clamp.
 Result<JointTargets, Reason> accept_joint_command(const JointCommandMessage& message,
                                                   const JointCommandRules& rules, Duration wall,
                                                   std::uint64_t last_stamp_ns);

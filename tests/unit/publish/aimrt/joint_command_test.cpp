@@ -229,6 +229,25 @@ TEST(AimrtJointCommand, HandsOnAllFiveValues) {
   EXPECT_EQ(joint.damping_Nmsprad, 2);
 }
 
+/// As a position alone does.
+TEST(AimrtJointCommand, LetsNoJointFallThatCarriesAWeight) {
+  auto rules = arm_rules();
+  rules.joints[1].carries_weight = true;
+  const auto why = [&](double effort_Nm, double stiffness, double damping) {
+    const auto message =
+        decode_joint_command(joint_entry("shoulder", 0.5, 0, effort_Nm, stiffness, damping));
+    const auto result = accept_joint_command(*message, rules, Duration(kNow_ns), 0);
+    return result ? "" : std::string(result.error().view());
+  };
+  EXPECT_EQ(why(0, 0, 0),
+            "joint 'shoulder': stiffness, damping and effort are 0: it carries a weight, and would "
+            "fall");
+  EXPECT_EQ(why(0, 40, 0), "");
+  EXPECT_EQ(why(0, 0, 2), "") << "it is let down slowly";
+  EXPECT_EQ(why(1.5, 0, 0), "") << "it is balanced by its program";
+  EXPECT_EQ(arm_refusal(joint_entry("shoulder", 0.5, 0)), "") << "nothing pulls at it";
+}
+
 TEST(AimrtJointCommand, RefusesByNameWhatAJointDoesNotFollow) {
   EXPECT_EQ(arm_refusal(joint_entry("elbow", 0.5, 0.1)), "");
   EXPECT_EQ(arm_refusal(joint_entry("elbow", 0.5, 0.1, 0, 40)),
