@@ -110,6 +110,7 @@ TEST_F(EngineGroup, WhatTheGuardLetSinkIsHeldWhereItIsGivenBack) {
   run_s(1);
   const double sank = arm[0].position_rad;
   ASSERT_LT(sank, 0.1);
+  EXPECT_EQ(told().state, GroupState::damping) << "nobody holds it";
   rig.guard_has_bus = guards = false;
   double highest = sank;
   for (int i = 0; i < 400; ++i) {
