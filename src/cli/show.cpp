@@ -51,17 +51,42 @@ std::string nothing_heard(const Node& source) {
   return "-  never heard" + (reason.empty() ? "" : "  " + reason);
 }
 
-/// A stream that a program drives by: nothing where nobody ever sent one.
-void show_stream(std::string& out, const char* name, const Node& stream) {
-  const auto some = [&](const char* key) { return at(stream, key).number().value_or(0) > 0; };
+/// " (gripper)": whose joint a reason names; nothing where that is one of the base, or none.
+std::string group_named(const Node& status, const std::string& reason) {
+  const auto* axes = at(status, "axes").list();
+  if (axes == nullptr) return "";
+  for (const auto& axis : *axes) {
+    const auto group = text(at(axis, "group"));
+    if (!group.empty() && reason.starts_with("joint '" + text(at(axis, "joint")) + "'"))
+      return " (" + group + ")";
+  }
+  return "";
+}
+
+/// A stream that a program drives by: nothing where nobody ever sent one. `of`: whose messages are
+/// refused here.
+void show_stream(std::string& out, const Node& status, const char* name, const char* key,
+                 const std::string& of = ", ") {
+  const Node& stream = at(status, key);
+  const auto some = [&](const char* which) { return at(stream, which).number().value_or(0) > 0; };
   if (!some("accepted") && !some("refused") && !some("unread")) return;
   std::string value = yes(at(stream, "active")) ? "heard" : "silent";
-  value += quantity(at(stream, "accepted"), ", %.0f followed") +
-           quantity(at(stream, "refused"), ", %.0f refused");
+  value += quantity(at(stream, "accepted"), ", %.0f followed") + of +
+           quantity(at(stream, "refused"), "%.0f refused");
   if (some("unread")) value += quantity(at(stream, "unread"), ", %.0f of a flood not read");
   if (some("of_rivals")) value += quantity(at(stream, "of_rivals"), ", %.0f of a second program");
   const auto reason = text(at(stream, "reason"));
-  line(out, name, reason.empty() ? value : value + ", last: " + reason);
+  if (!reason.empty()) value += ", last" + group_named(status, reason) + ": " + reason;
+  line(out, name, value);
+}
+
+/// Those of a group's joints that nobody could follow are refused before it is looked whose they
+/// are, and counted with the wheels'.
+void show_joint_commands(std::string& out, const Node& status) {
+  if (count(at(status, "groups")) > 0)
+    show_stream(out, status, "wheels", "joint_commands", "; of all joints ");
+  else
+    show_stream(out, status, "joints", "joint_commands");
 }
 
 /// A yaw that nobody knows yet is no number.
@@ -161,7 +186,14 @@ std::string in_force(const Node& axis) {
          quantity(at(axis, "damping_Nmsprad"), "%.4g Nms/rad") + "  ";
 }
 
+/// Where a joint outside the base is; a wheel's turns are no place.
+std::string place_of(const Node& axis) {
+  if (text(at(axis, "group")).empty()) return std::string(14, ' ');
+  return quantity(at(axis, "position_rad"), "%8.3f rad") + "  ";
+}
+
 void show_axes(std::string& out, const Node& status) {
+  const bool places = count(at(status, "groups")) > 0;
   const auto* axes = at(status, "axes").list();
   if (axes == nullptr) return;
   const std::size_t width = column(*axes, "joint", 14);
@@ -170,7 +202,7 @@ void show_axes(std::string& out, const Node& status) {
     if (never_heard(axis)) {
       value += nothing_heard(axis);
     } else {
-      value += padded(text(at(axis, "state")), 9) +
+      value += padded(text(at(axis, "state")), 9) + (places ? place_of(axis) : "") +
                quantity(at(axis, "velocity_radps"), "%7.2f rad/s") + "  " +
                quantity(at(axis, "effort_Nm"), "%6.2f Nm") + "  " + in_force(axis) +
                quantity(at(axis, "motor_degC"), "%.0f C") + "  " +
@@ -291,9 +323,8 @@ std::string show_status(const Node& status) {
        text(at(status, "robot")) + "  droverd " + text(at(status, "version")) +
            quantity(at(status, "uptime_s"), "  up %.0f s"));
   show_nav(out, status);
-  show_stream(out, "cmd_vel", at(status, "cmd_vel"));
-  show_stream(out, count(at(status, "groups")) > 0 ? "wheels" : "joints",
-              at(status, "joint_commands"));
+  show_stream(out, status, "cmd_vel", "cmd_vel");
+  show_joint_commands(out, status);
   show_why(out, status);
   show_place(out, status);
   show_clearance(out, status);

@@ -43,6 +43,9 @@ void axes(JsonText& out, const Snapshot& s) {
     ShownJson members(out, s.time);
     out.open('{');
     describe(members, axis);
+    // Of the base there is none.
+    if (axis.group > 0 && axis.group <= s.groups.size())
+      members.value("group", s.groups[axis.group - 1].name, {});
     members.value("stiffness_Nmprad", axis.stiffness_Nmprad, {});
     members.value("damping_Nmsprad", axis.damping_Nmsprad, {});
     out.close('}');

@@ -203,6 +203,50 @@ TEST(StatusInShort, TellsByWhichStiffnessAJointIsHeld) {
   EXPECT_EQ(shown.find("Nm/rad"), shown.rfind("Nm/rad")) << "of the joint alone";
 }
 
+/// Wheels beside a gripper of one joint.
+Snapshot with_a_gripper() {
+  Snapshot s = full_snapshot();
+  GroupSnapshot gripper;
+  gripper.name = "gripper";
+  EXPECT_TRUE(s.groups.push_back(gripper));
+  AxisSnapshot jaw = s.axes[0];
+  jaw.joint = "jaw";
+  jaw.group = 1;
+  jaw.motion.position_rad = -0.25;
+  EXPECT_TRUE(s.axes.push_back(jaw));
+  return s;
+}
+
+/// Also of one that nothing is asked of. Of a wheel it is no place.
+TEST(StatusInShort, TellsWhereAJointOutsideTheBaseIs) {
+  const auto status = json::parse(publish::status_json(with_a_gripper(), {}))->root;
+  const auto& axes = *status.find("axes")->list();
+  ASSERT_NE(axes.back().find("group"), nullptr);
+  EXPECT_EQ(*axes.back().find("group")->text(), "gripper");
+  EXPECT_EQ(axes.front().find("group"), nullptr) << "a wheel is of the base";
+  const std::string shown = show_status(status);
+  EXPECT_THAT(shown, testing::HasSubstr("jaw           running    -0.250 rad     3.02 rad/s"));
+  EXPECT_THAT(shown, testing::HasSubstr("front_left    running                   3.02 rad/s"))
+      << "one column under the other";
+  EXPECT_THAT(show_status(json::parse(publish::status_json(full_snapshot(), {}))->root),
+              testing::HasSubstr("front_left    running     3.02 rad/s"));
+}
+
+/// It is counted before anybody looks whose joints a message names.
+TEST(StatusInShort, TakesNoRefusalOfAGroupsJointForTheWheels) {
+  Snapshot s = with_a_gripper();
+  const auto shown = [&s](const char* why) {
+    s.joint_command = {false, 0, 100, why};
+    return show_status(json::parse(publish::status_json(s, {}))->root);
+  };
+  EXPECT_THAT(shown("joint 'jaw': velocity is NaN"),
+              testing::HasSubstr("wheels    silent, 0 followed; of all joints 100 refused, "
+                                 "last (gripper): joint 'jaw': velocity is NaN\n"));
+  for (const char* const why : {"joint 'front_left': velocity is NaN", "joint 'jawbone': none"})
+    EXPECT_THAT(shown(why),
+                testing::HasSubstr(std::string("; of all joints 100 refused, last: ") + why));
+}
+
 /// Of a robot with an arm: what is of the wheels says so, and what a limit held back is told.
 TEST(StatusInShort, TellsAnArmsCommandsApartFromTheWheels) {
   Snapshot s;
@@ -224,12 +268,13 @@ TEST(StatusInShort, TellsAnArmsCommandsApartFromTheWheels) {
   link.name = "can_of_the_arm";
   ASSERT_TRUE(s.links.push_back(link));
   const auto shown = show_status(json::parse(publish::status_json(s, {}))->root);
-  for (const char* const has : {"arm       following  owner broker  321 followed, 4 refused\n",
-                                "mast      following  owner broker  321 followed, 4 refused, held "
-                                "by a limit in 45 cycles\n",
-                                "wheels    silent, 0 followed, 147 refused, last: too old\n",
-                                "drives    not held (those of the base)\n",
-                                "links     base_can       down", "          can_of_the_arm down"})
+  for (const char* const has :
+       {"arm       following  owner broker  321 followed, 4 refused\n",
+        "mast      following  owner broker  321 followed, 4 refused, held "
+        "by a limit in 45 cycles\n",
+        "wheels    silent, 0 followed; of all joints 147 refused, last: too old\n",
+        "drives    not held (those of the base)\n", "links     base_can       down",
+        "          can_of_the_arm down"})
     EXPECT_NE(shown.find(has), std::string::npos) << has << "\n" << shown;
 }
 
