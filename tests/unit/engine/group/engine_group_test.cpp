@@ -194,6 +194,34 @@ TEST_F(EngineGroup, AMessageNamesTheJointsOfBoth) {
   EXPECT_EQ(rig.out.axes[first + 1].request, AxisRequest::rest);  // not named: as it was
 }
 
+/// Sound as a whole, each part of it is for its own: wheels that may not begin stop no arm, and
+/// an arm that is held stops no wheels.
+TEST_F(EngineGroup, AMessageForBothIsRefusedByOneAlone) {
+  settle();
+  const auto send_both_s = [&](double seconds, double wheels_radps) {
+    for (int i = 0; i < static_cast<int>(seconds * 200 + 0.5); ++i) {
+      JointTargets targets;
+      for (AxisId wheel = 0; wheel < 4; ++wheel)
+        (void)targets.joints.push_back({wheel, wheels_radps});
+      for (std::size_t joint = 0; joint < arm.size(); ++joint)
+        (void)targets.joints.push_back({static_cast<AxisId>(first + joint), 0, 0.3, 0, 60, 3});
+      rig.command(targets);
+      tick();
+    }
+  };
+  send_both_s(1, 1);
+  EXPECT_EQ(rig.snapshot().joint_command.accepted, 0u) << "it does not begin with velocity 0";
+  EXPECT_GT(rig.snapshot().joint_command.refused, 100u);
+  EXPECT_EQ(told().state, GroupState::following);
+  EXPECT_EQ(told().refused, 0u);
+  arm[0].state = AxisState::fault;
+  send_both_s(0.5, 0);
+  send_both_s(0.5, 1);
+  EXPECT_EQ(told().state, GroupState::holding) << reason();
+  EXPECT_GT(told().refused, 0u);
+  EXPECT_NEAR(rig.fastest_command_radps(), 1.0, 0.1);
+}
+
 /// A stream for the arm alone is none for the base, whose own does not go on by it.
 TEST_F(EngineGroup, AnArmsStreamIsNoneOfTheBase) {
   settle();
