@@ -156,7 +156,7 @@ void JointServo::run(const Input& input) {
   cycle_.found = !loop_.closed && !follows_;
   loop_.closed = true;
   watch_joint(measured, dt_s);
-  ask_trust(input, measured, dt_s);
+  ask_trust(input, measured);
   if (follows_) loop_.pressed = false;
   ask_arrival(measured, dt_s);
   command_.request = AxisRequest::run;
@@ -195,16 +195,17 @@ void JointServo::watch_joint(const JointMeasured& measured, double dt_s) {
 }
 
 /// What its drive measures is not believed, until somebody begins anew.
-void JointServo::ask_trust(const Input& input, const JointMeasured& measured, double dt_s) {
+void JointServo::ask_trust(const Input& input, const JointMeasured& measured) {
   const double since_s = measured_ == kNever ? 0 : to_s(input.axis.last_motion - measured_);
   measured_ = input.axis.last_motion;
   if (follows_) told_trust_ = Trust::whole;
   if (told_trust_ == Trust::damps && loop_.trust.runs_on(measured)) told_trust_ = Trust::let_go;
   if (told_trust_ != Trust::whole || input.blocked) return loop_.trust.look_away();
   if (!loop_.leap.why().empty()) return distrust(loop_.leap.why());
+  // What was let go was told no law to go against, though its drive may say that it runs.
+  if (state_ == GroupState::released) return loop_.trust.look_away();
   const JointShaper& told = loop_.shaper;
-  const Reason why =
-      loop_.trust.look(measured, since_s, told.impedance(), told.velocity_radps(), dt_s);
+  const Reason why = loop_.trust.look(measured, since_s, told.impedance(), told.velocity_radps());
   if (!why.empty()) distrust(why);
 }
 

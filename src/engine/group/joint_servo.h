@@ -136,7 +136,7 @@ class JointServo final {
   // What it does while that runs.
   JointMeasured measured(const Input& input);
   void watch_joint(const JointMeasured& measured, double dt_s);
-  void ask_trust(const Input& input, const JointMeasured& measured, double dt_s);
+  void ask_trust(const Input& input, const JointMeasured& measured);
   void distrust(const Reason& why);
   void ask_arrival(const JointMeasured& measured, double dt_s);
   void do_without(const JointMeasured& measured);

@@ -17,6 +17,13 @@ constexpr double kAgainst_rad = 0.03;
 constexpr double kFlees_radps = 0.2;
 constexpr double kSlower = 0.9;  ///< than it was: who brakes
 constexpr double kFaster = 1.3;  ///< than when that began: nobody brakes it
+// Of what went its way before: who leans on it, or swings it, goes against its law as well. Beyond
+// these, against nearly all of its effort and ever faster, it flees.
+constexpr double kFlight = 2;      ///< times its fastest speed
+constexpr double kTellable = 0.5;  ///< of what its drive can tell: beyond that nothing gets faster
+constexpr double kFast_radps = 1;  ///< a slow one is soon pushed so
+constexpr double kEverFaster = 1.5;
+constexpr int kTimes = 3;  ///< measured so
 // What is told reaches a drive a cycle later, and what it does is told one later; each cycle more
 // makes it faster.
 constexpr double kStands_s = 0.018;
@@ -30,30 +37,34 @@ constexpr double kLastStep = 1e-5;  ///< of a range: less than its drive can tel
 constexpr double kApart_rad = 0.02;
 /// Who told nothing for so long heard nothing either.
 constexpr double kHeldUp_s = 0.03;
+/// Nobody is found to stand by fewer measurements, however seldom they come.
+constexpr double kLongest_s = 0.006;
 
 }  // namespace
 
 JointTrust::JointTrust(const JointRules& rules) : rules_(rules) {}
 
 Reason JointTrust::look(const JointMeasured& measured, double since_s, const Impedance& told,
-                        double velocity_radps, double dt_s) {
+                        double velocity_radps) {
   if (!(since_s > 0)) return {};
   // Who leads a joint by hand that is only damped goes against its damping.
   const double wanted_Nm = told.effort_Nm + told.damping_Nmsprad * velocity_radps +
                            told.stiffness_Nmprad * (told.position_rad - measured.position_rad);
   const double gives_Nm = wanted_Nm - told.damping_Nmsprad * measured.velocity_radps;
   if (const Reason beyond = look_at_range(measured); !beyond.empty()) return beyond;
-  follow(measured, velocity_radps, dt_s);
-  Reason why = look_at_sign(measured, wanted_Nm, gives_Nm, dt_s);
+  const double heard_s = std::min(since_s, kHeldUp_s);
+  follow(measured, velocity_radps, heard_s);
+  Reason why = look_at_sign(measured, wanted_Nm, gives_Nm, heard_s);
   if (why.empty()) why = look_at_motion(measured, since_s);
   if (!why.empty()) return why;
-  if (since_s <= kHeldUp_s) return look_at_encoder(measured, gives_Nm, dt_s);
+  if (since_s <= kHeldUp_s) return look_at_encoder(measured, gives_Nm, since_s);
   forget_stand();  // what it was told meanwhile it never gave
   return {};
 }
 
 void JointTrust::look_away() {
   moved_radps_ = kAbsent;
+  against_rad_ = 0;  // what it did meanwhile nobody saw
   forget_stand();
 }
 
@@ -81,31 +92,49 @@ Reason JointTrust::look_at_range(const JointMeasured& measured) const {
 }
 
 /// What goes with its set point is held to it by a drive that turns the right way.
-void JointTrust::follow(const JointMeasured& measured, double velocity_radps, double dt_s) {
+void JointTrust::follow(const JointMeasured& measured, double velocity_radps, double since_s) {
   const double set_radps = std::abs(velocity_radps);
   const bool with = std::abs(measured.velocity_radps - velocity_radps) < kBeside * set_radps;
-  if (with) with_rad_ += set_radps * dt_s;
+  if (with) with_rad_ += set_radps * since_s;
+}
+
+/// Is it so fast that it may flee? Of what never went with its set point nobody knows anything.
+bool JointTrust::is_fast(double speed_radps) const {
+  if (!is_proved()) return speed_radps > kFlees_radps;
+  const double far_radps =
+      std::min(kFlight * rules_.max_velocity_radps, kTellable * rules_.drive.velocity_radps);
+  return speed_radps > std::max(far_radps, kFast_radps);
+}
+
+/// Does it go on against that, and gets no slower?
+bool JointTrust::goes_against(double speed_radps, double wanted_Nm, double gives_Nm) const {
+  const bool asks = !is_proved() && !rules_.carries_weight;
+  const bool pushed = asks && wanted_Nm < -kPushes * rules_.max_effort_Nm;
+  const bool held = gives_Nm < -kCarries * rules_.max_effort_Nm;
+  return (pushed || held) && is_fast(speed_radps) && speed_radps >= kSlower * fastest_radps_;
 }
 
 /// Of a drive of the wrong sign each law is one that flees: the farther it is the harder and
 /// faster. What is braked, or caught, goes against its torque as well, and gets slower.
 Reason JointTrust::look_at_sign(const JointMeasured& measured, double wanted_Nm, double gives_Nm,
-                                double dt_s) {
-  if (with_rad_ > kProved_rad) return {};
+                                double since_s) {
   const double speed_radps = std::abs(measured.velocity_radps);
   const double way = std::copysign(1.0, measured.velocity_radps);
-  const bool pushed = !rules_.carries_weight && way * wanted_Nm < -kPushes * rules_.max_effort_Nm;
-  const bool held = way * gives_Nm < -kCarries * rules_.max_effort_Nm;
-  const bool against = (pushed || held) && speed_radps > kFlees_radps;
-  if (!against || speed_radps < kSlower * fastest_radps_) {
+  if (!goes_against(speed_radps, way * wanted_Nm, way * gives_Nm)) {
     against_rad_ = fastest_radps_ = 0;
     return {};
   }
-  if (against_rad_ == 0) began_radps_ = speed_radps;
-  against_rad_ += speed_radps * dt_s;
+  if (against_rad_ == 0) {
+    began_radps_ = speed_radps;
+    faster_ = 0;
+  }
+  against_rad_ += speed_radps * since_s;
+  if (speed_radps > fastest_radps_) ++faster_;
   fastest_radps_ = std::max(fastest_radps_, speed_radps);
+  const bool flees = is_proved() ? faster_ >= kTimes && speed_radps > kEverFaster * began_radps_
+                                 : speed_radps > kFaster * began_radps_;
   Reason why;
-  if (against_rad_ > kAgainst_rad && speed_radps > kFaster * began_radps_)
+  if (against_rad_ > kAgainst_rad && flees)
     why.format(
         "it turns by %.1f rad/s against %.1f Nm: its drive turns the wrong way, or it is pushed",
         measured.velocity_radps, gives_Nm);
@@ -140,7 +169,7 @@ bool JointTrust::stands(const JointMeasured& measured) const {
 }
 
 /// What is there gives way by some bits when it is pressed harder, also at a stop or in a brake.
-Reason JointTrust::look_at_encoder(const JointMeasured& measured, double gives_Nm, double dt_s) {
+Reason JointTrust::look_at_encoder(const JointMeasured& measured, double gives_Nm, double since_s) {
   if (!stands(measured)) {
     stands_rad_ = measured.position_rad;
     least_Nm_ = most_Nm_ = gives_Nm;
@@ -150,7 +179,8 @@ Reason JointTrust::look_at_encoder(const JointMeasured& measured, double gives_N
   least_Nm_ = std::min(least_Nm_, gives_Nm);
   most_Nm_ = std::max(most_Nm_, gives_Nm);
   const double changed_Nm = most_Nm_ - least_Nm_;
-  stands_s_ += changed_Nm > kChanged * rules_.max_effort_Nm ? dt_s : 0;
+  const bool changed = changed_Nm > kChanged * rules_.max_effort_Nm;
+  stands_s_ += changed ? std::min(since_s, kLongest_s) : 0;
   Reason why;
   if (stands_s_ > kStands_s)
     why.format(
@@ -158,6 +188,11 @@ Reason JointTrust::look_at_encoder(const JointMeasured& measured, double gives_N
         "it is blocked",
         changed_Nm);
   return why;
+}
+
+/// It went with its set point for long enough.
+bool JointTrust::is_proved() const {
+  return with_rad_ > kProved_rad;
 }
 
 bool JointTrust::runs_on(const JointMeasured& measured) const {

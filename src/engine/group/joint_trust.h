@@ -10,8 +10,9 @@ namespace drover::engine {
 /// would drive it on. Pure.
 ///
 /// The sign is asked for from when the drive came into closed loop until the joint went with its
-/// set point for a while: until then somebody who pushes against it looks alike, afterwards he is
-/// known.
+/// set point for a while: until then somebody who pushes against it looks alike. Afterwards he is
+/// known, and asked is only for a flight: far beyond its fastest speed, and ever faster, against
+/// nearly all of its effort.
 class JointTrust final {
  public:
   explicit JointTrust(const JointRules& rules);
@@ -21,17 +22,20 @@ class JointTrust final {
   /// One cycle after `told`, at `velocity_radps`, was told; `since_s`: from the measurement before
   /// to this one; 0: it is the same. Why it is not believed; empty: it is.
   Reason look(const JointMeasured& measured, double since_s, const Impedance& told,
-              double velocity_radps, double dt_s);
+              double velocity_radps);
   /// Somebody else has it, or it is not believed anyhow.
   void look_away();
   /// After that, told to damp: it gets faster the way it went.
   bool runs_on(const JointMeasured& measured) const;
 
  private:
-  void follow(const JointMeasured& measured, double velocity_radps, double dt_s);
+  void follow(const JointMeasured& measured, double velocity_radps, double since_s);
+  bool is_proved() const;
+  bool is_fast(double speed_radps) const;
+  bool goes_against(double speed_radps, double wanted_Nm, double gives_Nm) const;
   Reason look_at_sign(const JointMeasured& measured, double wanted_Nm, double gives_Nm,
-                      double dt_s);
-  Reason look_at_encoder(const JointMeasured& measured, double gives_Nm, double dt_s);
+                      double since_s);
+  Reason look_at_encoder(const JointMeasured& measured, double gives_Nm, double since_s);
   Reason look_at_range(const JointMeasured& measured) const;
   bool stands(const JointMeasured& measured) const;
   void forget_stand();
@@ -42,6 +46,7 @@ class JointTrust final {
   double against_rad_ = 0;  ///< against what is wanted of it, and ever faster
   double began_radps_ = 0;  ///< that
   double fastest_radps_ = 0;
+  int faster_ = 0;               ///< than before, so many times since
   double stands_rad_ = kAbsent;  ///< to the bit
   double least_Nm_ = 0;          ///< told since
   double most_Nm_ = 0;

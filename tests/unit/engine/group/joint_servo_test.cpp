@@ -20,6 +20,9 @@ struct ServoBench {
   double tremble_rad = 0;  ///< of its encoder, from one cycle to the next
   double at_rad = 0.3;
   Time now = Time{} + 100s;
+  Duration tick = 5ms;
+  int measures_each = 1;  ///< so many cycles
+  bool goes = false;      ///< where it is told, at once
   int cycle = 0;
   const Reason none{};
 
@@ -28,20 +31,27 @@ struct ServoBench {
     axis.motion.velocity_radps = 0;
   }
   void step() {
-    now += 5ms;
+    now += tick;
     ++cycle;
     if (sends && cycle % 2 == 0) servo.take(target, now);
-    axis.motion.position_rad = at_rad + tremble_rad * (cycle % 2);
-    axis.last_motion = now;
-    servo.step({now, 5ms, axis, heard, none, 2s, false, true});
+    if (goes) go();
+    if (cycle % measures_each == 1 % measures_each) {
+      axis.motion.position_rad = at_rad + tremble_rad * (cycle % 2);
+      axis.last_motion = now;
+    }
+    servo.step({now, tick, axis, heard, none, 2s, false, true});
+  }
+  void go() {
+    at_rad = servo.command().impedance.position_rad;
+    axis.motion.velocity_radps = servo.command().velocity_radps;
   }
   void run_s(double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds / 0.005 + 0.5); ++i) step();
+    for (int i = 0; i < static_cast<int>(seconds / to_s(tick) + 0.5); ++i) step();
   }
   /// Whether it ended by itself meanwhile.
   bool fails_within_s(double seconds) {
     bool failed = false;
-    for (int i = 0; i < static_cast<int>(seconds / 0.005 + 0.5); ++i) {
+    for (int i = 0; i < static_cast<int>(seconds / to_s(tick) + 0.5); ++i) {
       step();
       failed = failed || servo.failed();
     }
@@ -101,6 +111,57 @@ TEST(JointServo, ItsDriveHasTheWholeTimeForEachRowOfCommands) {
     ASSERT_FALSE(joint.fails_within_s(0.1)) << row << ": " << joint.servo.reason().view();
     joint.servo.take(joint.target, joint.now + 5ms);
     joint.step();
+  }
+}
+
+/// As of a drive that measures each 4 ms, asked each 2.
+ServoBench often_asked() {
+  ServoBench joint;
+  joint.tick = 2ms;
+  joint.measures_each = 2;
+  return joint;
+}
+
+/// Time is that of the measurements, however often it is asked between them.
+TEST(JointServo, AnEncoderThatStandsIsFoundAsSoonWhereItsCyclesAreShort) {
+  for (ServoBench joint : {ServoBench(), often_asked()}) {
+    joint.run_s(1);
+    joint.sends = true;
+    joint.run_s(1.5);
+    joint.target.effort_Nm = 2;
+    ASSERT_FALSE(joint.fails_within_s(0.1)) << "a fifth of its effort takes so long";
+    EXPECT_TRUE(joint.fails_within_s(0.03)) << to_s(joint.tick);
+  }
+}
+
+/// What is measured seldom is asked no fewer times: what it does is told late.
+TEST(JointServo, OneThatMeasuresSeldomHasTheSameNumberOfMeasurementsToGiveWay) {
+  ServoBench joint;
+  joint.measures_each = 4;
+  joint.run_s(1);
+  joint.sends = true;
+  joint.run_s(1.5);
+  joint.target.effort_Nm = 2;
+  EXPECT_FALSE(joint.fails_within_s(0.14)) << joint.servo.reason().view();
+  EXPECT_TRUE(joint.fails_within_s(0.1));
+}
+
+/// It went its way for 0.15 rad: somebody pushes.
+TEST(JointServo, OneThatWentWithItsSetPointIsKnownAsSoonWhereItsCyclesAreShort) {
+  for (ServoBench joint : {ServoBench(), often_asked()}) {
+    joint.run_s(1);
+    joint.sends = joint.goes = true;
+    joint.run_s(1);
+    joint.target.position_rad = joint.at_rad + 0.15;
+    joint.run_s(1);
+    ASSERT_TRUE(joint.servo.following()) << joint.servo.reason().view();
+    joint.goes = false;
+    for (double pushed_s = 0; pushed_s < 0.2; pushed_s += to_s(joint.tick)) {
+      joint.axis.motion.velocity_radps = -0.3 - 4 * pushed_s;
+      joint.at_rad += joint.axis.motion.velocity_radps * to_s(joint.tick);
+      joint.step();
+    }
+    EXPECT_TRUE(joint.servo.following()) << joint.servo.reason().view();
   }
 }
 
