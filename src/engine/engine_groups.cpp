@@ -54,23 +54,24 @@ void Engine::Impl::step_groups(Time now, Duration dt, const Environment& environ
                            : !latch.stop().empty()      ? latch.stop()
                            : arming.released()          ? Reason(kReleased)
                                                         : Reason();
+  const bool blocked = environment.guard_has_bus && !environment.guard_leaves_the_rest();
   for (std::size_t i = 0; i < groups.size(); ++i) {
     groups[i].step({now,
                     dt,
                     {snapshot.axes.data(), snapshot.axes.size()},
                     from_s(config.health.drive_stale_s),
                     hindrance,
-                    environment.guard_has_bus && !environment.guard_leaves_the_rest(),
+                    blocked,
                     report.estop},
                    out.axes, out.joint_may_move, events);
     snapshot.groups[i] = groups[i].snapshot();
   }
   for (std::size_t i = joints_of_base(); i < snapshot.axes.size(); ++i) {
     const AxisCommand& told = out.axes[i];
-    const bool held = told.request == AxisRequest::run;
+    const bool runs = told.request == AxisRequest::run && !blocked;
     snapshot.axes[i].commanded_velocity_radps = told.velocity_radps;
-    snapshot.axes[i].stiffness_Nmprad = held ? told.impedance.stiffness_Nmprad : kAbsent;
-    snapshot.axes[i].damping_Nmsprad = held ? told.impedance.damping_Nmsprad : kAbsent;
+    snapshot.axes[i].stiffness_Nmprad = runs ? told.impedance.stiffness_Nmprad : kAbsent;
+    snapshot.axes[i].damping_Nmsprad = runs ? told.impedance.damping_Nmsprad : kAbsent;
   }
 }
 

@@ -16,9 +16,12 @@ struct Environment {
   bool guard_has_bus = false;  ///< the guard sends stop frames; ours are blocked until hand-back
   bool guard_latched = false;  ///< somebody stopped the robot at the guard, until a reset there
   bool guard_refuses_set = false;  ///< it keeps the stop set of another configuration, until then
+  bool guard_has_all = false;      ///< it takes this program for gone
   /// By a stop from outside the guard leaves what only a program can hold to the one whose stop set
-  /// it has: what it keeps of another it plays whole, and two would write.
-  bool guard_leaves_the_rest() const { return guard_latched && !guard_refuses_set; }
+  /// it has, and which it hears: else it plays all, and two would write.
+  bool guard_leaves_the_rest() const {
+    return guard_latched && !guard_refuses_set && !guard_has_all;
+  }
   /// The drives had power when the outputs were opened: another program kept the enable relay.
   bool relay_found_closed = false;
   /// Health of each drive, by AxisId, as its driver judges it.

@@ -197,6 +197,7 @@ void Gateway::on(const Tick& tick, Time now) {
   environment_.guard_has_bus = tick.guard_has_bus;
   environment_.guard_latched = tick.guard_latched;
   environment_.guard_refuses_set = tick.guard_refuses_set;
+  environment_.guard_has_all = tick.guard_has_all;
 
   engine_.step(now, environment_, cycle_.engine);
   motion_permitted_ = cycle_.engine.motion_permitted;

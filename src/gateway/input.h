@@ -112,11 +112,10 @@ struct HeldUp {
 struct Tick {
   bool guard_alive = false;
   bool guard_has_bus = false;  ///< it sends stop frames; ours are blocked until hand-back
-  /// Somebody stopped the robot at the guard, until a reset there: then it leaves this program what
-  /// it cannot hold itself. False, too, where it takes this program for gone, and has all.
-  bool guard_latched = false;
+  bool guard_latched = false;  ///< somebody stopped the robot at the guard, until a reset there
   /// It keeps the stop set of another configuration, and takes this one's with a reset there.
   bool guard_refuses_set = false;
+  bool guard_has_all = false;  ///< it takes this program for gone
 };
 
 /// The order is the recording's: a new one goes to the end.

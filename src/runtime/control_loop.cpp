@@ -116,8 +116,8 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
 
   const bool guard_alive = guard_watch_.alive(begin) && keeper_.guard_equipped();
   apply(begin,
-        gateway::Tick{guard_alive, guard_watch_.holds(begin),
-                      guard_watch_.leaves_the_rest(leaves_to_guard_), guard_watch_.refuses_set()});
+        gateway::Tick{guard_alive, guard_watch_.holds(begin), guard_watch_.latched(),
+                      guard_watch_.refuses_set(), leaves_to_guard_ || guard_watch_.missed_us()});
   // Before the events go: who hears that a path is released may delete it.
   if (exchange_.recorder != nullptr) exchange_.recorder->output(gateway_);
   show_scene();
@@ -143,11 +143,10 @@ Time ControlLoop::cycle(Time begin, std::uint64_t late) {
   // What was moving when its wheels were heard last may be moving still.
   if (const double vx_mps = gateway_.snapshot().worst_vx_mps; std::isfinite(vx_mps))
     last_vx_mps_ = vx_mps;
-  const bool rolls = std::abs(last_vx_mps_) > kRolls_mps;
   const auto& slowing = out.engine.slowing_permitted;
   const bool slows = out.engine.base.slowing_permitted ||
                      std::find(slowing.begin(), slowing.end(), true) != slowing.end();
-  const bool moves = out.engine.motion_permitted || slows || task || rolls;
+  const bool moves = out.engine.motion_permitted || slows || task || rolls();
   exchange_.at_rest.store(!moves && !out.engine.unsettled, std::memory_order_release);
   return publish(begin);
 }
@@ -222,6 +221,11 @@ void ControlLoop::tell_hold_up(Duration lasted, Time now) {
   exchange_.events_ready.notify();
 }
 
+/// The base, as far as somebody knew it.
+bool ControlLoop::rolls() const {
+  return std::abs(last_vx_mps_) > kRolls_mps;
+}
+
 GuardSigns ControlLoop::guard_signs() const {
   const auto& shared = guard_.shared();
   return {shared.guard_beats.load(std::memory_order_acquire),
@@ -235,7 +239,7 @@ void ControlLoop::watch_guard(Time now) {
   if (guard_watch_.update(guard_signs(), now)) (void)exchange_.stops.ask_stop();
   const auto& robot = gateway_.snapshot();
   const bool calm = robot.nav.status != NavStatus::run && !program_.trouble();
-  if (guard_watch_.ask_back(calm, cannot_wait(robot), now)) keeper_.request_hand_back();
+  if (guard_watch_.ask_back(calm, cannot_wait(robot, !rolls()), now)) keeper_.request_hand_back();
 }
 
 Time ControlLoop::publish(Time now) {

@@ -70,6 +70,7 @@ class ControlLoop final {
   void tell_hold_up(Duration lasted, Time now);
   bool still_may_leave(Time decided) const;
   void send(std::size_t bus, std::span<const CanFrame> frames, Time decided);
+  bool rolls() const;
   GuardSigns guard_signs() const;
   void watch_guard(Time now);
   void keep(const Remembered& remembered);

@@ -18,7 +18,7 @@ struct GuardSigns {
 
 class GuardWatch final {
  public:
-  /// The bus is asked back when the robot was at rest and our heartbeat good for this long.
+  /// The bus is asked back when it was the guard's for this long.
   static constexpr Duration kHandBackAfter = std::chrono::milliseconds(500);
   /// What moves on under the guard's frames cannot wait.
   static constexpr Duration kHandBackAtOnce = std::chrono::milliseconds(30);
@@ -62,12 +62,9 @@ class GuardWatch final {
     return signs.holds && (signs.beats != beats_ || heard_recently(now));
   }
   bool latched() const { return latched_; }
-  /// Its stop from outside leaves this program what it cannot hold itself. Not where it missed our
-  /// heartbeat since the cycle before, or gets none (`leaves_to_guard`): then it plays all, and two
-  /// would write; what it damped meanwhile has gone on from where it was held.
-  bool leaves_the_rest(bool leaves_to_guard) const {
-    return latched_ && !missed_us_ && !leaves_to_guard;
-  }
+  /// Since the cycle before it had no heartbeat of ours for too long: it plays all, also what it
+  /// leaves to this program by a stop from outside, and what it damped has gone on meanwhile.
+  bool missed_us() const { return missed_us_; }
   /// It keeps the stop set of another program, until it is reset.
   bool refuses_set() const { return set_refused_; }
 

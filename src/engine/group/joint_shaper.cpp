@@ -13,6 +13,7 @@ constexpr double kSame_rad = 1e-6;
 /// Of the fastest braking: the rest is for the cycle.
 constexpr double kBrakesWith = 0.8;
 constexpr double kMoves_radps = 0.05;
+constexpr double kThrown_radps = 1;  // what is slower is hardly thrown back
 /// Times as fast as an effort rises that is asked for: what falls sinks meanwhile.
 constexpr double kCatches = 5;
 
@@ -94,7 +95,8 @@ void JointShaper::end_at(double end_rad, double dt_s) {
   if (beyond_rad * velocity_radps_ <= 0 || std::abs(beyond_rad) > std::abs(velocity_radps_) * dt_s)
     return;
   position_rad_ = end_rad;
-  velocity_radps_ = 0;
+  const double step_radps = rules_.max_acceleration_radps2 * dt_s;
+  if (std::abs(velocity_radps_) <= 2 * step_radps) velocity_radps_ = 0;
 }
 
 /// A speed goes ahead of a position that moves by it. One that stands for longer than its commands
@@ -291,6 +293,17 @@ void JointShaper::look_at_weight(const JointMeasured& measured, double dt_s) {
   effort_Nm_ = weight_.keeps_Nm();
 }
 
+/// What is faster than it may be goes on until it is braked. By then what is becoming stiff would
+/// throw it back: the set point goes along, to the joint's end. What would drive it on ends.
+void JointShaper::go_on(double gave_Nm, const JointMeasured& measured) {
+  const double radps = measured.velocity_radps;
+  if (std::abs(radps) <= std::max(rules_.max_velocity_radps, kThrown_radps)) return;
+  const double low_rad = std::min(rules_.min_rad, position_rad_);
+  const double high_rad = std::max(rules_.max_rad, position_rad_);
+  draw_to(gave_Nm * radps > 0 ? 0 : gave_Nm, measured);
+  position_rad_ = std::clamp(position_rad_, low_rad, high_rad);
+}
+
 void JointShaper::hold(const JointMeasured& measured, double dt_s, bool keeps_weight) {
   limited_ = 0;
   if (!holds_) begin_hold(measured, keeps_weight);
@@ -303,11 +316,8 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s, bool keeps_we
         approach(effort_Nm_, carried_Nm, (kCatches - 1) * risen(dt_s) * rules_.max_effort_Nm);
   const double stiffness_before = stiffness_;
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, carried_Nm, dt_s);
-  // What is faster than it may be goes on until it is braked. By then what is becoming stiff would
-  // throw it back.
-  const bool fast = std::abs(measured.velocity_radps) > rules_.max_velocity_radps;
-  if (fast && stiffness_ > stiffness_before) draw_to(gave_Nm, measured);
   approach_velocity(0, dt_s);
+  if (stiffness_ > stiffness_before) go_on(gave_Nm, measured);
   tell(velocity_radps_, measured);
 }
 

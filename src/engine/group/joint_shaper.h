@@ -82,6 +82,7 @@ class JointShaper final {
   double gives_Nm(const JointMeasured& measured) const;
   void begin_hold(const JointMeasured& measured, bool keeps_weight);
   void look_at_weight(const JointMeasured& measured, double dt_s);
+  void go_on(double gave_Nm, const JointMeasured& measured);
   void tell(double velocity_radps, const JointMeasured& measured);
 
   JointRules rules_;

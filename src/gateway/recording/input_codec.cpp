@@ -140,14 +140,16 @@ void get(FramesSent& counts, ByteReader& in) {
 void put(const Tick& tick, ByteWriter& out) {
   out.byte(static_cast<std::uint8_t>((tick.guard_alive ? 1U : 0U) | (tick.guard_has_bus ? 2U : 0U) |
                                      (tick.guard_latched ? 4U : 0U) |
-                                     (tick.guard_refuses_set ? 8U : 0U)));
+                                     (tick.guard_refuses_set ? 8U : 0U) |
+                                     (tick.guard_has_all ? 16U : 0U)));
 }
 void get(Tick& tick, ByteReader& in) {
-  const auto bits = in.below(16);
+  const auto bits = in.below(32);
   tick.guard_alive = (bits & 1U) != 0;
   tick.guard_has_bus = (bits & 2U) != 0;
   tick.guard_latched = (bits & 4U) != 0;
   tick.guard_refuses_set = (bits & 8U) != 0;
+  tick.guard_has_all = (bits & 16U) != 0;
 }
 
 void put(const ProgramTrouble& trouble, ByteWriter& out) {

@@ -105,7 +105,8 @@ std::string words(const Tick& tick, const Wiring&) {
   return std::string("tick") + (tick.guard_alive ? ", guard alive" : ", no guard") +
          (tick.guard_has_bus ? ", guard has the bus" : "") +
          (tick.guard_latched ? ", stopped at the guard" : "") +
-         (tick.guard_refuses_set ? ", the guard keeps another stop set" : "");
+         (tick.guard_refuses_set ? ", the guard keeps another stop set" : "") +
+         (tick.guard_has_all ? ", the guard has all" : "");
 }
 std::string words(const ProgramTrouble& trouble, const Wiring&) {
   return "trouble of the daemon: " + std::string(trouble.why);

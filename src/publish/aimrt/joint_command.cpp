@@ -118,8 +118,10 @@ Reason number_problem(const JointCommandEntry& joint, const JointRule& rule) {
     reason.format("%s %g is negative", field.name, field.value);
     return reason;
   }
+  // Zeros alone are an effort of 0: of a program that balances it, say.
   const bool limp = joint.stiffness == 0 && joint.damping == 0 && joint.effort_Nm == 0;
-  if (rule.carries_weight && rule.follows == JointFollows::impedance && limp)
+  const bool asks = joint.position_rad != 0 || joint.velocity_radps != 0;
+  if (rule.carries_weight && rule.follows == JointFollows::impedance && limp && asks)
     reason = "stiffness, damping and effort are 0: it carries a weight, and would fall";
   return reason;
 }

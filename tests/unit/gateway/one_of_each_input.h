@@ -100,6 +100,7 @@ struct OneOfEachInput {
     add(HeldUp{0.31});
     add(LinkLost{0, "can0: lost (No such device)"});
     add(Tick{false, true, true});
+    add(Tick{false, true, true, false, true});
   }
   OneOfEachInput(const OneOfEachInput&) = delete;
   OneOfEachInput& operator=(const OneOfEachInput&) = delete;

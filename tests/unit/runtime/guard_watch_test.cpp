@@ -123,21 +123,18 @@ TEST_F(AGuardWatch, LeavesTheBusToAGuardThatIsLatchedAndTellsOfTheLatchOnce) {
 }
 
 /// Two would write otherwise, and what sank meanwhile would be torn back.
-TEST_F(AGuardWatch, IsLeftNothingByAStopFromOutsideWhileItsOwnHeartbeatIsMissed) {
-  EXPECT_FALSE(watch.leaves_the_rest(false)) << "nobody stopped it";
-  signs.holds = signs.latched = true;
+TEST_F(AGuardWatch, KnowsThatTheGuardMissedItsOwnHeartbeat) {
   pass(20ms);
-  EXPECT_TRUE(watch.leaves_the_rest(false));
-  EXPECT_FALSE(watch.leaves_the_rest(true));
+  EXPECT_FALSE(watch.missed_us());
   now += 45ms;
   beat();
-  EXPECT_TRUE(watch.leaves_the_rest(false)) << "the guard bears 50 ms";
+  EXPECT_FALSE(watch.missed_us()) << "the guard bears 50 ms";
   now += 50ms;
   beat();
-  EXPECT_FALSE(watch.leaves_the_rest(false));
+  EXPECT_TRUE(watch.missed_us());
   now += 5ms;
   beat();
-  EXPECT_TRUE(watch.leaves_the_rest(false)) << "it has a heartbeat again";
+  EXPECT_FALSE(watch.missed_us()) << "it has a heartbeat again";
 }
 
 TEST_F(AGuardWatch, TellsOfALatchAndOfAStopSetThatTheGuardDidNotTake) {

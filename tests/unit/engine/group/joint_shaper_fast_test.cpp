@@ -12,33 +12,35 @@ namespace drover::engine {
 namespace {
 
 struct Swing {
+  double fastest_radps = 0;
   double on_rad = 0;      ///< after holding began
   double back_rad = 0;    ///< from there
   double back_radps = 0;  ///< at most
 };
 
 /// At `radps`, with little damping and no weight, and then held.
-Swing held_at(double radps, JointShaper& shaper) {
-  ArmJoint joint;
+Swing held_at(double radps, JointShaper& shaper, double stiffness = 0, ArmJoint joint = {}) {
   joint.weight_Nm = 0;
   joint.state = AxisState::running;
   joint.velocity_radps = radps;
+  const double from_rad = joint.position_rad;
   const auto measured = [&] {
     return JointMeasured{joint.position_rad, joint.velocity_radps, joint.torque_Nm};
   };
   shaper.take_over(measured());
   for (int i = 0; i < 200; ++i) {  // it is led on at that speed
     joint.velocity_radps = radps;
-    joint.position_rad = 0;
-    shaper.follow(at(0, 0, 0.1), measured(), kCycle_s);
+    joint.position_rad = from_rad;
+    shaper.follow(at(from_rad, stiffness, 0.1), measured(), kCycle_s);
   }
   Swing swing;
-  for (int i = 0; i < 800; ++i) {
+  for (int i = 0; i < 1600; ++i) {
     shaper.hold(measured(), kCycle_s);
     joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
     for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
-    swing.on_rad = std::max(swing.on_rad, joint.position_rad);
-    swing.back_rad = swing.on_rad - joint.position_rad;
+    swing.fastest_radps = std::max(swing.fastest_radps, joint.velocity_radps);
+    swing.on_rad = std::max(swing.on_rad, joint.position_rad - from_rad);
+    swing.back_rad = swing.on_rad - (joint.position_rad - from_rad);
     swing.back_radps = std::max(swing.back_radps, -joint.velocity_radps);
   }
   return swing;
@@ -61,6 +63,40 @@ TEST(JointShaper, WhatWasHeldAboveItsSpeedIsHeldStiffly) {
   (void)held_at(5, shaper);
   EXPECT_DOUBLE_EQ(shaper.impedance().stiffness_Nmprad, 40);
   EXPECT_EQ(shaper.velocity_radps(), 0);
+}
+
+/// Its set point goes on at first, and would draw it.
+TEST(JointShaper, WhatIsHeldAboveItsSpeedIsNotDrivenOn) {
+  struct Arm {
+    double inertia_kgm2, stiffness, damping, max_radps, slows_radps2, effort_Nm, radps;
+  };
+  for (const Arm& arm : {Arm{1, 150, 4.9, 3, 5, 20, 3.2}, Arm{0.3, 80, 3, 3, 5, 20, 4},
+                         Arm{1, 150, 3, 1, 2, 20, 1.2}, Arm{0.3, 80, 3, 1, 2, 10, 1.2}}) {
+    for (const double told : {5.0, 20.0}) {
+      JointRules rules = rules_of(JointFollows::impedance);
+      rules.max_rad = 10;
+      rules.stiffness_Nmprad = arm.stiffness;
+      rules.damping_Nmsprad = arm.damping;
+      rules.max_velocity_radps = arm.max_radps;
+      rules.max_acceleration_radps2 = arm.slows_radps2;
+      rules.max_effort_Nm = arm.effort_Nm;
+      JointShaper shaper(rules);
+      ArmJoint joint;
+      joint.inertia_kgm2 = arm.inertia_kgm2;
+      const Swing swing = held_at(arm.radps, shaper, told, joint);
+      EXPECT_LT(swing.fastest_radps, arm.radps + 0.1) << arm.inertia_kgm2 << " kgm2, " << told;
+      EXPECT_LT(swing.back_radps, arm.max_radps) << arm.inertia_kgm2 << " kgm2, " << told;
+    }
+  }
+}
+
+/// Where its set point goes along, it ends: there a spring brakes.
+TEST(JointShaper, WhatIsHeldAboveItsSpeedIsNotHeldBeyondItsEnd) {
+  JointShaper shaper(rules_of(JointFollows::impedance));
+  ArmJoint joint;
+  joint.position_rad = 1.3;
+  const Swing swing = held_at(5, shaper, 0, joint);
+  EXPECT_LT(1.3 + swing.on_rad - swing.back_rad, 1.5 + 0.01);
 }
 
 }  // namespace

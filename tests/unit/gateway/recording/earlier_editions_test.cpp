@@ -176,7 +176,7 @@ TEST_F(FirstEdition, HadTheSameOfAllElse) {
   EXPECT_EQ(meaning(12, {11}),
             "at 8.000000000 s: tick, guard alive, guard has the bus, the guard "
             "keeps another stop set");
-  EXPECT_EQ(meaning(12, {16}), "damaged");
+  EXPECT_EQ(meaning(12, {32}), "damaged");
   EXPECT_EQ(meaning(13, {2, 'n', 'o'}), "at 8.000000000 s: trouble of the daemon: no");
   EXPECT_EQ(meaning(16, {1}), "at 8.000000000 s: outputs up, relay closed");
   EXPECT_EQ(meaning(17, {}), "damaged");

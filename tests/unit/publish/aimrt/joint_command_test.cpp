@@ -246,6 +246,9 @@ TEST(AimrtJointCommand, LetsNoJointFallThatCarriesAWeight) {
   EXPECT_EQ(why(0, 0, 2), "") << "it is let down slowly";
   EXPECT_EQ(why(1.5, 0, 0), "") << "it is balanced by its program";
   EXPECT_EQ(arm_refusal(joint_entry("shoulder", 0.5, 0)), "") << "nothing pulls at it";
+  const auto zeros = decode_joint_command(joint_entry("shoulder", 0, 0));
+  EXPECT_TRUE(accept_joint_command(*zeros, rules, Duration(kNow_ns), 0))
+      << "an effort that passes 0";
 }
 
 TEST(AimrtJointCommand, RefusesByNameWhatAJointDoesNotFollow) {
