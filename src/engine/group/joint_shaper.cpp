@@ -294,14 +294,13 @@ void JointShaper::look_at_weight(const JointMeasured& measured, double dt_s) {
 }
 
 /// What is faster than it may be goes on until it is braked. By then what is becoming stiff would
-/// throw it back: the set point goes along, to the joint's end. What would drive it on ends.
+/// throw it back: the set point goes along, and what would drive it on ends. A weight that falls is
+/// thrown nowhere.
 void JointShaper::go_on(double gave_Nm, const JointMeasured& measured) {
   const double radps = measured.velocity_radps;
-  if (std::abs(radps) <= std::max(rules_.max_velocity_radps, kThrown_radps)) return;
-  const double low_rad = std::min(rules_.min_rad, position_rad_);
-  const double high_rad = std::max(rules_.max_rad, position_rad_);
+  const bool falls = weight_.keeps_Nm() * radps < 0;
+  if (falls || std::abs(radps) <= std::max(rules_.max_velocity_radps, kThrown_radps)) return;
   draw_to(gave_Nm * radps > 0 ? 0 : gave_Nm, measured);
-  position_rad_ = std::clamp(position_rad_, low_rad, high_rad);
 }
 
 void JointShaper::hold(const JointMeasured& measured, double dt_s, bool keeps_weight) {
@@ -316,8 +315,12 @@ void JointShaper::hold(const JointMeasured& measured, double dt_s, bool keeps_we
         approach(effort_Nm_, carried_Nm, (kCatches - 1) * risen(dt_s) * rules_.max_effort_Nm);
   const double stiffness_before = stiffness_;
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, carried_Nm, dt_s);
+  // No farther out than it is, or than its end.
+  const double low_rad = std::min(rules_.min_rad, position_rad_);
+  const double high_rad = std::max(rules_.max_rad, position_rad_);
   approach_velocity(0, dt_s);
   if (stiffness_ > stiffness_before) go_on(gave_Nm, measured);
+  position_rad_ = std::clamp(position_rad_, low_rad, high_rad);
   tell(velocity_radps_, measured);
 }
 

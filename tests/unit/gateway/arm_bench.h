@@ -53,7 +53,8 @@ class ArmBench {
     lines.link = 2;
     (void)lines.levels.push_back(!estop);
     gateway.apply({now, lines});
-    gateway.apply({now, Tick{true, guard_has_bus, guard_latched, guard_refuses_set}});
+    gateway.apply(
+        {now, Tick{true, guard_has_bus, guard_latched, guard_refuses_set, guard_has_all}});
     allocations += counter.count();
   }
   void cycles(int count) {
@@ -84,6 +85,7 @@ class ArmBench {
   bool guard_has_bus = false;
   bool guard_latched = false;
   bool guard_refuses_set = false;
+  bool guard_has_all = false;
   std::uint64_t requests = 0;
   std::uint64_t allocations = 0;
 

@@ -49,7 +49,7 @@ TEST(AnArmAtTheGateway, IsHeldByItAfterAStopFromOutsideAndNotWhenTheGuardHasAll)
   EXPECT_FALSE(bench.to_arm().empty());
   EXPECT_EQ(bench.gateway.refused(1), 0U);
   EXPECT_NEAR(bench.shafts[0].position_rad, 0.5, 0.02);
-  bench.guard_latched = false;  // its heartbeat was late: the guard has every axis
+  bench.guard_has_all = true;  // its heartbeat was late
   const auto before = bench.gateway.refused(1);
   bench.cycles(100);
   EXPECT_GT(bench.gateway.refused(1), before);

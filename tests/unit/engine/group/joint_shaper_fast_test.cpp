@@ -90,13 +90,51 @@ TEST(JointShaper, WhatIsHeldAboveItsSpeedIsNotDrivenOn) {
   }
 }
 
-/// Where its set point goes along, it ends: there a spring brakes.
-TEST(JointShaper, WhatIsHeldAboveItsSpeedIsNotHeldBeyondItsEnd) {
-  JointShaper shaper(rules_of(JointFollows::impedance));
+/// Where its set point goes along, or is still on its way, it ends: there a spring brakes.
+TEST(JointShaper, WhatIsHeldInAMovementIsNotHeldBeyondItsEnd) {
+  for (const double fastest_radps : {1.0, 3.0}) {
+    for (const double told : {0.0, 5.0, 20.0}) {
+      for (const double radps : {0.9, 2.9, 5.0}) {
+        JointRules rules = rules_of(JointFollows::impedance);
+        rules.max_velocity_radps = fastest_radps;
+        rules.max_effort_Nm = 20;
+        JointShaper shaper(rules);
+        ArmJoint joint;
+        joint.position_rad = 1.45;
+        const Swing swing = held_at(radps, shaper, told, joint);
+        EXPECT_LT(1.45 + swing.on_rad - swing.back_rad, 1.5 + 0.01)
+            << fastest_radps << ", " << told << ", " << radps;
+        EXPECT_LE(shaper.position_rad(), 1.5 + 1e-9);
+      }
+    }
+  }
+}
+
+/// It sinks by what its braking takes, and its spring brakes it with the rest.
+TEST(JointShaper, AWeightThatFallsIsCaughtWhereItFell) {
+  JointRules rules = carries(rules_of(JointFollows::impedance));
+  rules.min_rad = -3;
+  rules.stiffness_Nmprad = 150;
+  rules.damping_Nmsprad = 3;
+  rules.max_effort_Nm = 20;
+  JointShaper shaper(rules);
   ArmJoint joint;
-  joint.position_rad = 1.3;
-  const Swing swing = held_at(5, shaper, 0, joint);
-  EXPECT_LT(1.3 + swing.on_rad - swing.back_rad, 1.5 + 0.01);
+  joint.weight_Nm = 12;
+  joint.inertia_kgm2 = 0.3;
+  joint.damps_Nmsprad = 3;
+  joint.state = AxisState::running;
+  joint.velocity_radps = -4;
+  joint.torque_Nm = 12;
+  shaper.take_over({0, -4});
+  double lowest_rad = 0;
+  for (int i = 0; i < 1600; ++i) {
+    shaper.hold({joint.position_rad, joint.velocity_radps, joint.torque_Nm}, kCycle_s);
+    joint.obey({AxisRequest::run, shaper.velocity_radps(), shaper.impedance()});
+    for (int k = 0; k < 5; ++k) joint.step(kCycle_s / 5);
+    lowest_rad = std::min(lowest_rad, joint.position_rad);
+  }
+  EXPECT_GT(lowest_rad, -0.45);
+  EXPECT_GT(joint.position_rad, -0.3);
 }
 
 }  // namespace
