@@ -83,10 +83,13 @@ void JointShaper::approach_velocity(double wanted_radps, double dt_s) {
   position_rad_ += velocity_radps_ * dt_s;
 }
 
-/// So fast that its set point still stops at an end of its way; `outwards`: 1 or -1.
-double JointShaper::stops_from(double end_rad, double outwards) const {
-  const double left_rad = std::max(outwards * (end_rad - position_rad_), 0.0);
-  return std::sqrt(2 * kBrakesWith * rules_.max_acceleration_radps2 * left_rad);
+/// No faster than its set point can still be stopped at the end of its way.
+double JointShaper::within_ends(double velocity_radps) {
+  const auto stops_from = [this](double left_rad) {
+    return std::sqrt(2 * kBrakesWith * rules_.max_acceleration_radps2 * std::max(left_rad, 0.0));
+  };
+  return within(JointValue::position, velocity_radps, -stops_from(position_rad_ - rules_.min_rad),
+                stops_from(rules_.max_rad - position_rad_));
 }
 
 /// What a cycle is too long for.
@@ -116,9 +119,7 @@ void JointShaper::approach_position(double wanted_rad, double wanted_radps, doub
   const double nearer = std::min(reach, std::abs(away) / std::max(dt_s, 1e-9));
   const double wanted =
       std::clamp(wanted_radps + std::copysign(nearer, away), -fastest_radps, fastest_radps);
-  approach_velocity(within(JointValue::position, wanted, -stops_from(rules_.min_rad, -1),
-                           stops_from(rules_.max_rad, 1)),
-                    dt_s);
+  approach_velocity(within_ends(wanted), dt_s);
   end_at(velocity_radps_ > 0 ? rules_.max_rad : rules_.min_rad, dt_s);
   const bool arrived = (wanted_rad - position_rad_) * away <= 0 || std::abs(away) < kSame_rad;
   if (!arrived || std::abs(velocity_radps_ - wanted_radps) > step_radps + kSame_rad) return;
@@ -177,11 +178,7 @@ void JointShaper::follow_velocity(const JointTarget& target, const JointMeasured
                                   double dt_s) {
   double wanted = within(JointValue::velocity, target.velocity_radps, -rules_.max_velocity_radps,
                          rules_.max_velocity_radps);
-  const double end_rad = wanted > 0 ? rules_.max_rad : rules_.min_rad;
-  const double left_rad =
-      std::max(wanted > 0 ? end_rad - position_rad_ : position_rad_ - end_rad, 0.0);
-  const double stops_from = std::sqrt(2 * kBrakesWith * rules_.max_acceleration_radps2 * left_rad);
-  wanted = within(JointValue::position, wanted, -stops_from, stops_from);
+  wanted = within_ends(wanted);
   const double stiffness_before = stiffness_;
   approach_gains(rules_.stiffness_Nmprad, rules_.damping_Nmsprad, 0, dt_s);
   keep_torque(stiffness_before, measured);

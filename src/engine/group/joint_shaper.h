@@ -70,7 +70,7 @@ class JointShaper final {
   void approach_gains(double stiffness, double damping, double effort, double dt_s);
   void approach_position(double wanted_rad, double wanted_radps, double fastest_radps, double dt_s);
   void approach_velocity(double wanted_radps, double dt_s);
-  double stops_from(double end_rad, double outwards) const;
+  double within_ends(double velocity_radps);
   void end_at(double end_rad, double dt_s);
   double ahead_radps(const JointTarget& target, double wanted_radps, double dt_s);
   void follow_position(const JointTarget& target, double stiffness, double damping,

@@ -26,12 +26,6 @@ class EngineGroupBlocked : public EngineGroup {
       tick();
     }
   }
-  int said(const char* words) {
-    int times = 0;
-    for (const Notice& notice : rig.said<Notice>())
-      if (notice.text.view().find(words) != std::string_view::npos) ++times;
-    return times;
-  }
   void expect_ended() {
     EXPECT_EQ(told().state, GroupState::holding);
     EXPECT_THAT(reason(), HasSubstr("shoulder: it presses with "));

@@ -91,6 +91,13 @@ class EngineGroup : public ::testing::Test {
   const GroupSnapshot& told() const { return rig.snapshot().groups[0]; }
   std::string reason() const { return std::string(told().reason.view()); }
   bool may_move(std::size_t i) const { return rig.out.joint_may_move[first + i]; }
+  /// So often the journal was told something with these words.
+  int said(const char* words) {
+    int times = 0;
+    for (const Notice& notice : rig.said<Notice>())
+      if (notice.text.view().find(words) != std::string_view::npos) ++times;
+    return times;
+  }
 
   EngineRig rig;
   const std::size_t first;  ///< of its axes

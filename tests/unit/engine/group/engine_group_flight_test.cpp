@@ -39,12 +39,6 @@ class EngineGroupFlight : public EngineGroup {
     std::printf("  at most %.1f rad/s\n", fastest_radps);
   }
   bool is_accused() { return said("its drive turns the wrong way, or it is pushed") > 0; }
-  int said(const char* words) {
-    int times = 0;
-    for (const Notice& notice : rig.said<Notice>())
-      if (notice.text.view().find(words) != std::string_view::npos) ++times;
-    return times;
-  }
 
   double fastest_radps = 0;
 };

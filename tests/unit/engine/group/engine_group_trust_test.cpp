@@ -29,12 +29,6 @@ class EngineGroupTrust : public EngineGroup {
     arm[1].velocity_radps = 0;
     arm[1].position_rad += 0.1;
   }
-  int said(const char* words) {
-    int times = 0;
-    for (const Notice& notice : rig.said<Notice>())
-      if (notice.text.view().find(words) != std::string_view::npos) ++times;
-    return times;
-  }
 
   double fastest_radps = 0;
   double hardest_Nm = 0;
